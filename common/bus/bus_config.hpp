@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/base/time.hpp"
+
+namespace limbcast::bus {
+
+enum class Vendor : std::uint8_t { kCyclone, kFast, kInproc };
+
+enum class NetworkProfile : std::uint8_t {
+  kLoopback,    ///< this host only, no multicast: hermetic
+  kLan,         ///< the interface the DDS library chooses, multicast discovery
+  kInterfaces,  ///< the interfaces named in `interfaces`
+};
+
+/// Which network a process joins, and how.
+struct BusConfig {
+  /// "cyclone", "fast" or "inproc" in files and on command lines.
+  Vendor vendor = Vendor::kCyclone;
+
+  /// DDS domain. Range: [0, 101]; above that the ports fall into the ephemeral range.
+  std::uint32_t domain_id = 42;
+
+  /// DDS partition: one session. Empty = the default partition.
+  std::string partition;
+
+  NetworkProfile network = NetworkProfile::kLoopback;
+
+  /// Interface names or addresses for NetworkProfile::kInterfaces.
+  std::vector<std::string> interfaces;
+
+  /// Unicast peers (addresses) beside what discovery finds.
+  std::vector<std::string> peers;
+
+  /// Name of the participant in DDS tools and in events, e.g. "limbcast-fusion". At most 64
+  /// characters.
+  std::string participant_name = "limbcast";
+
+  /// EXCLUSIVE ownership strength of this process' writers: the highest alive one is heard. Range:
+  /// [0, 1000].
+  std::int32_t ownership_strength = 10;
+
+  /// A stream writer silent for this long counts as gone. Range: [50 ms, 60 s].
+  Duration stream_lease = std::chrono::milliseconds(500);
+
+  /// Samples kept for each instance of a stream. Range: [1, 1024].
+  std::int32_t stream_depth = 16;
+
+  /// Gather small samples into packets until Flush (Cyclone only; the others ignore it).
+  bool write_batching = false;
+};
+
+[[nodiscard]] Status Validate(const BusConfig& config);
+
+/// "cyclone" | "fast" | "inproc".
+[[nodiscard]] Result<Vendor> ParseVendor(const std::string& text);
+/// "loopback" | "lan" | a comma-separated list of interface names or addresses (fills
+/// `interfaces`).
+[[nodiscard]] Status ParseNetwork(const std::string& text, BusConfig& config);
+
+}  // namespace limbcast::bus

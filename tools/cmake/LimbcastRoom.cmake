@@ -1,0 +1,67 @@
+# Functions that every room's CMakeLists.txt uses, so that warnings, sanitizers and labels are decided once.
+
+add_library(limbcast_options INTERFACE)
+target_include_directories(limbcast_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(limbcast_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-qual -Wconversion
+  -Wsign-conversion -Woverloaded-virtual -Wnull-dereference -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC 12 reports false null dereferences and array bounds inside Eigen and libstdc++ when it inlines.
+  target_compile_options(limbcast_options INTERFACE -Wno-null-dereference -Wno-array-bounds
+    -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict -Wno-maybe-uninitialized)
+endif()
+if(LIMBCAST_SANITIZE)
+  target_compile_options(limbcast_options INTERFACE -fsanitize=${LIMBCAST_SANITIZE} -fno-omit-frame-pointer
+    -fno-sanitize-recover=all)
+  target_link_options(limbcast_options INTERFACE -fsanitize=${LIMBCAST_SANITIZE})
+endif()
+
+# limbcast_room(common/base SOURCES a.cpp DEPS limbcast::math Eigen3::Eigen PRIVATE_DEPS x)
+# makes the static library limbcast_<last part> with the alias limbcast::<last part>.
+function(limbcast_room path)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
+  get_filename_component(name ${path} NAME)
+  set(target limbcast_${name})
+  if(ARG_SOURCES)
+    add_library(${target} STATIC ${ARG_SOURCES})
+    target_link_libraries(${target} PUBLIC limbcast_options ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+  else()
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE limbcast_options ${ARG_DEPS})
+  endif()
+  add_library(limbcast::${name} ALIAS ${target})
+endfunction()
+
+# limbcast_executable(limbcast-fusion SOURCES main.cpp DEPS limbcast::fusion): lands in <build>/bin.
+function(limbcast_executable name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE limbcast_options ${ARG_DEPS})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+endfunction()
+
+# limbcast_test(so3_test LABEL unit SOURCES so3_test.cpp DEPS limbcast::math [TIMEOUT 120]): one GoogleTest
+# executable, one CTest entry for each of its test cases.
+function(limbcast_test name)
+  cmake_parse_arguments(ARG "SERIAL" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE limbcast_options ${ARG_DEPS} limbcast_test_support
+    GTest::gmock GTest::gtest GTest::gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  set(properties LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_SERIAL)
+    list(APPEND properties RUN_SERIAL TRUE)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+endfunction()
+
+# limbcast_benchmark(so3_benchmark SOURCES ... DEPS ...): built with everything, never timed by a test.
+function(limbcast_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE limbcast_options ${ARG_DEPS} benchmark::benchmark benchmark::benchmark_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/benchmark)
+endfunction()
