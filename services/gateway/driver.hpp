@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/base/time.hpp"
+#include "common/body/segment_truth.hpp"
+#include "common/roster/roster.hpp"
+#include "common/sensing/fused_orientation.hpp"
+#include "common/sensing/marg_sample.hpp"
+#include "common/sensing/sensor_info.hpp"
+
+namespace limbcast::gateway {
+
+/// Whose clock the times in a Batch are on, and therefore who paces.
+enum class DriverTime : std::uint8_t {
+  /// Recordings and simulators: `measured_at` counts from the epoch (Time{} + offset from the
+  /// recording's first sample, so the first is about zero). Next never blocks; the gateway decides
+  /// when a tick is due and maps its times to now.
+  kRecording,
+  /// Devices: `measured_at` is host time (the driver maps its device's clock with a ClockMap). Next
+  /// blocks until data is there; the gateway publishes at once.
+  kHost,
+};
+
+/// What a driver knows before the first sample. Fixed for the driver's life.
+struct DriverDescription {
+  std::string driver;  ///< "simulator", "replay", ... (at most 32 characters)
+  std::string source;  ///< file, model or port, for people
+  DriverTime time = DriverTime::kRecording;
+  double tick_rate_hz = 0.0;  ///< nominal ticks a second; 0 = unknown
+  std::vector<sensing::SensorInfo> sensors;
+  /// Who wears what, as far as the driver knows; may be empty (then a session host must say). With
+  /// revision 1 and an empty session; the gateway may change body ids and fills the session.
+  std::vector<roster::RosterEntry> bodies;
+  bool has_truth = false;  ///< batches carry SegmentTruth
+};
+
+/// All that one tick brings: the samples of all sensors that belong to one instant (or, for live
+/// devices, that came together). The gateway keeps one Batch and hands it to every Next, so that
+/// nothing is allocated once its vectors have grown.
+struct Batch {
+  /// When the tick is due, on the same scale as the samples' `measured_at`; grows strictly from one
+  /// batch to the next. Usually the largest `measured_at`.
+  Time tick_at{};
+  /// Filled in by the driver: sensor_uid, measured_at, readings, and the flags that only it can
+  /// know (missing channels, kMagHeld, kCoilPulseActive; saturation if the device tells). Left to
+  /// the gateway: sequence, published_at, saturation by range. Readings are never invented: what is
+  /// not there is zero and flagged missing; what is not finite goes through as it is.
+  std::vector<sensing::MargSample> marg;
+  std::vector<sensing::FusedOrientation> orientation;
+  std::vector<body::SegmentTruth> truth;
+  /// Samples that the device or recording lost before this tick (e.g. gaps in a packet counter).
+  std::uint64_t device_lost = 0;
+
+  void Clear() {
+    tick_at = Time{};
+    marg.clear();
+    orientation.clear();
+    truth.clear();
+    device_lost = 0;
+  }
+};
+
+enum class DriverStep : std::uint8_t {
+  kData,     ///< the batch holds a tick
+  kWaiting,  ///< nothing yet (live devices, at most 100 ms after the call); call again
+  kEnd,      ///< no more data; the batch is empty
+};
+
+/// A source of sensor data, to the gateway service all the same: simulator, recording, device.
+/// Knows no DDS, no pacing, no sequence numbers. Thread-compatible: the gateway calls Describe,
+/// Next and Rewind from one thread at a time; only Interrupt comes from another.
+class Driver {
+ public:
+  virtual ~Driver() = default;
+
+  [[nodiscard]] virtual const DriverDescription& Describe() const = 0;
+
+  /// Clears `batch` and fills it with the next tick. An Error is final for this attempt: the
+  /// gateway reports it in `health`, and ends (recordings) or calls Next again after a pause
+  /// (devices).
+  [[nodiscard]] virtual Result<DriverStep> Next(Batch& batch) = 0;
+
+  /// Goes back to the first tick; batches then start again at the same `tick_at`. kUnsupported
+  /// where that makes no sense (devices; a simulator that never ends).
+  [[nodiscard]] virtual Status Rewind() {
+    return Error{ErrorCode::kUnsupported, "this driver cannot start again from the beginning"};
+  }
+
+  /// Makes a blocked Next return kWaiting soon. Callable from any thread. Drivers that never block
+  /// leave it empty.
+  virtual void Interrupt() {}
+};
+
+}  // namespace limbcast::gateway
