@@ -1,0 +1,122 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+
+#include "common/filters/bounded_motion_config.hpp"
+
+namespace limbcast::filters {
+
+/// One reading as the core takes it. What is not usable is left out by its flag, never by a number.
+template <typename Scalar>
+struct BoundedMotionInput {
+  Scalar dt_s = 0;
+  Eigen::Matrix<Scalar, 3, 1> gyro_rad_s;
+  Eigen::Matrix<Scalar, 3, 1> accel_m_s2;
+  Eigen::Matrix<Scalar, 3, 1> mag;  ///< any unit, always the same
+  bool accel_valid = true;
+  bool mag_valid = true;
+  bool rest_allowed = true;  ///< false: the gyro value is not a reading
+};
+
+/// Everything the core remembers; trivially copyable, so that it can be saved, restored and compared.
+///
+/// Error convention: R_true = Exp(δθ)·R̂ (earth frame), every other error is truth − estimate.
+/// Order of the error vector: δθ 0–2, δb_g 3–5, δv_h 6–7, δp_h 8–9, δb_a 10–12, δb_m 13–15, δS 16–24 (by columns).
+template <typename Scalar>
+struct BoundedMotionState {
+  static constexpr int kDim = 25;
+  static constexpr int kRows = 28;  // padded, so that every column starts aligned
+  using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+  using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
+
+  Eigen::Matrix<Scalar, kRows, kDim> P;  // symmetric in its first kDim rows, zero below
+  Eigen::Quaternion<Scalar> q_ES;
+  Vector3 b_g, b_a, b_m;
+  Matrix3 S;
+  Eigen::Matrix<Scalar, 2, 1> v_h, p_h;
+  Vector3 m_0;       // reference field, units of |m| at start: (0, north, up)
+  Scalar m_ref;      // |m| at start, unit of the input
+  bool has_field;
+
+  // sums of the fast loop since the last slow step
+  Matrix3 sum_R;
+  Vector3 sum_f, sum_m;
+  Eigen::Matrix<Scalar, 3, 9> sum_W;  // Σ R ω'_j dt
+  Scalar sum_w2, sum_t, sum_extra_theta;
+  std::int32_t n, n_f, n_m;
+
+  // field check and rest detector
+  Scalar deviation_hold, deviation_mean;
+  Vector3 low_g, low_a;
+  Scalar rest_time_s;
+  bool low_started;
+  Vector3 w_ES_S;  // last rate, corrected
+  std::uint64_t covariance_resets;
+  std::uint32_t slow_steps;
+};
+
+/// The bounded-motion multi-rate error-state Kalman filter of one sensor, without time stamps and bad input (see
+/// BoundedMotionFilter for those). Attitude is integrated with every sample; covariance and corrections run at the
+/// slow rate on sums over the samples in between. Earth frame: ENU. Thread-compatible; allocates nothing.
+template <typename Scalar>
+class BoundedMotionCore {
+ public:
+  using State = BoundedMotionState<Scalar>;
+  using Input = BoundedMotionInput<Scalar>;
+  using Vector3 = typename State::Vector3;
+  using Matrix3 = typename State::Matrix3;
+
+  /// @param config  valid.
+  explicit BoundedMotionCore(const BoundedMotionConfig& config);
+
+  /// Starts (or restarts) the attitude; keeps b_g, S and b_a when `keep_learned`.
+  ///
+  /// @param q_earth_sensor  unit.
+  /// @param mag_in_earth    mean field turned to the earth frame by q_earth_sensor, or zero when there is none.
+  void Start(const Eigen::Quaternion<Scalar>& q_earth_sensor, const Vector3& mag_in_earth, bool keep_learned);
+
+  /// The two steps of one sample: integrate, and correct when a slow step is complete.
+  void Update(const Input& input);
+
+  /// The field reference from the first usable magnetometer readings, when the start had none: heading stays where
+  /// it is.
+  void AdoptField(const Vector3& mag_in_earth);
+
+  /// Adds to the attitude variance (all axes) with the next slow step, e.g. for a bridged gap.
+  void InflateAttitude(Scalar variance_rad2) { state_.sum_extra_theta += variance_rad2; }
+
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] State& mutable_state() { return state_; }
+  [[nodiscard]] bool at_rest() const { return state_.rest_time_s > kRestAfter_s; }
+  [[nodiscard]] const BoundedMotionConfig& config() const { return config_; }
+
+  static constexpr Scalar kRestAfter_s = Scalar(1.5);
+
+ private:
+  struct Means;
+
+  void Integrate(const Input& input);
+  void DetectRest(const Input& input);
+  void SlowStep();
+  void Propagate(const Means& means);
+  void CheckField(const Means& means);
+  void CorrectRest(Scalar T);
+  void CorrectBounds(Scalar T);
+  void CorrectField(const Means& means);
+  template <int N>
+  void CorrectDirect(int first, const Eigen::Matrix<Scalar, N, 1>& z, Scalar variance);
+  void Inject(const Eigen::Matrix<Scalar, State::kRows, 1>& dx);
+  void GuardCovariance();
+  void ResetCovariance();
+  void ClearSums();
+
+  BoundedMotionConfig config_;
+  State state_;
+  Scalar slow_period_s_;
+};
+
+extern template class BoundedMotionCore<double>;
+extern template class BoundedMotionCore<float>;
+
+}  // namespace limbcast::filters
