@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/bus/bus_config.hpp"
+#include "common/config/command_line.hpp"
+
+namespace limbcast::service {
+
+/// Reads a [bus] table. Keys: dds ("cyclone" | "fast" | "inproc"), domain_id, partition, network
+/// ("loopback" | "lan" | interfaces, separated by commas), peers, ownership_strength,
+/// stream_lease_s, stream_depth, write_batching. Refusals are remembered in the section's file.
+[[nodiscard]] bus::BusConfig ReadBusConfig(const config::Section& section,
+                                           bus::BusConfig defaults = {});
+
+/// The command line that all services share: that of config::CommandLine and the options that say
+/// which network to join: --dds, --domain, --partition, --network, --peer, and --log-level.
+class ServiceCommandLine : public config::CommandLine {
+ public:
+  ServiceCommandLine(std::string program, std::string description, std::string examples);
+
+  /// The [bus] table of `file` (marks it as read) with the command line put over it; the
+  /// participant is named after the program.
+  [[nodiscard]] Result<bus::BusConfig> ReadBus(const config::ConfigFile& file) const;
+
+  /// Sends the log to stderr in the level of --log-level, one line an event, named `program`.
+  void StartLog() const;
+
+ private:
+  std::optional<std::string> dds_;
+  std::optional<std::uint32_t> domain_id_;
+  std::optional<std::string> partition_;
+  std::optional<std::string> network_;
+  std::vector<std::string> peers_;
+  std::string log_level_ = "info";
+};
+
+}  // namespace limbcast::service
