@@ -23,9 +23,10 @@ struct SegmentDefinition {
   Eigen::Vector3d p_parent_segment_m = Eigen::Vector3d::Zero();
   /// From the inboard to the outboard end, in the segment's own axes.
   Eigen::Vector3d p_segment_end_m = Eigen::Vector3d::Zero();
-  /// Alignment in force: q_earth_segment = q_earth_sensor * q_sensor_segment (Bachmann Eq. 33–34,
-  /// q_offset).
+  /// Alignment in force: q_earth_segment = Rz(heading_correction_rad) * q_earth_sensor *
+  /// q_sensor_segment (Bachmann Eq. 33–34, q_offset, after the sensor's heading was corrected).
   Eigen::Quaterniond q_sensor_segment = Eigen::Quaterniond::Identity();
+  double heading_correction_rad = 0.0;  ///< about earth z; from heading resets
   bool aligned = false;  ///< q_sensor_segment comes from a calibration, not from the default
   /// Joint limits about the segment's parent, x y z of the rotation vector [rad]; min > max means
   /// none.

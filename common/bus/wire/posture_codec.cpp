@@ -12,6 +12,7 @@ void Fields(V& field, D& d, W& w) {
   field("p_parent_segment_m", d.p_parent_segment_m, w.p_parent_segment_m());
   field("p_segment_end_m", d.p_segment_end_m, w.p_segment_end_m());
   field("q_sensor_segment", d.q_sensor_segment, w.q_sensor_segment());
+  field("heading_correction_rad", d.heading_correction_rad, w.heading_correction_rad());
   field("aligned", d.aligned, w.aligned());
   field("joint_min_rad", d.joint_min_rad, w.joint_min_rad());
   field("joint_max_rad", d.joint_max_rad, w.joint_max_rad());
