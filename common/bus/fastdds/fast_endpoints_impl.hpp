@@ -1,0 +1,39 @@
+#pragma once
+
+// The bodies of fast_endpoints.hpp, for the .cpp files that instantiate them.
+
+#include <memory>
+#include <utility>
+
+#include "common/bus/fastdds/fast_endpoints.hpp"
+#include "common/bus/fastdds/fast_reader.hpp"
+#include "common/bus/fastdds/fast_writer.hpp"
+
+namespace limbcast::bus::fastdds {
+
+template <typename T>
+Result<std::unique_ptr<Writer<T>>> MakeFastWriter(FastParticipant& participant) {
+  auto writer = std::make_unique<FastWriter<T>>(participant);
+  if (Status opened = writer->Open(); !opened) {
+    return opened.error();
+  }
+  return std::unique_ptr<Writer<T>>(std::move(writer));
+}
+
+template <typename T>
+Result<std::unique_ptr<Reader<T>>> MakeFastReader(FastParticipant& participant,
+                                                  ReaderHandler<T> handler) {
+  auto reader = std::make_unique<FastReader<T>>(participant, std::move(handler));
+  if (Status opened = reader->Open(); !opened) {
+    return opened.error();
+  }
+  return std::unique_ptr<Reader<T>>(std::move(reader));
+}
+
+/// Instantiates both for one topic.
+#define LIMBCAST_FAST_ENDPOINTS(Domain)                                                      \
+  template Result<std::unique_ptr<Writer<Domain>>> MakeFastWriter<Domain>(FastParticipant&); \
+  template Result<std::unique_ptr<Reader<Domain>>> MakeFastReader<Domain>(FastParticipant&,  \
+                                                                          ReaderHandler<Domain>)
+
+}  // namespace limbcast::bus::fastdds

@@ -1,0 +1,113 @@
+#include "common/bus/fastdds/fast_network.hpp"
+
+#include <arpa/inet.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <ifaddrs.h>
+#include <netinet/in.h>
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace limbcast::bus::fastdds {
+namespace {
+
+using eprosima::fastdds::dds::DomainParticipantQos;
+using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
+using eprosima::fastrtps::Duration_t;
+using eprosima::fastrtps::rtps::IPLocator;
+using eprosima::fastrtps::rtps::Locator_t;
+
+constexpr std::uint32_t kSocketBuffer_bytes = 4 * 1024 * 1024;  // the kernel caps it at rmem_max
+constexpr std::uint32_t kPeerPorts = 64;  // participants that one address may have
+constexpr const char* kLoopback = "127.0.0.1";
+constexpr const char* kDiscoveryGroup = "239.255.0.1";  // DDSI-RTPS 9.6.1.4
+
+std::vector<std::pair<std::string, std::string>> NamesAndAddresses() {
+  std::vector<std::pair<std::string, std::string>> found;
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) {
+    return found;
+  }
+  for (const ifaddrs* it = list; it != nullptr; it = it->ifa_next) {
+    if (it->ifa_addr == nullptr || it->ifa_addr->sa_family != AF_INET) {
+      continue;
+    }
+    sockaddr_in address{};
+    std::copy_n(reinterpret_cast<const char*>(it->ifa_addr), sizeof(address),
+                reinterpret_cast<char*>(&address));
+    char text[INET_ADDRSTRLEN] = {};
+    inet_ntop(AF_INET, &address.sin_addr, text, sizeof(text));
+    found.emplace_back(it->ifa_name, text);
+  }
+  freeifaddrs(list);
+  return found;
+}
+
+void AddPeer(DomainParticipantQos& qos, const std::string& address) {
+  Locator_t locator;  // port 0: the first kPeerPorts discovery ports of the domain
+  locator.port = 0;
+  IPLocator::setIPv4(locator, address);
+  qos.wire_protocol().builtin.initialPeersList.push_back(locator);
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> InterfaceAddresses(const BusConfig& config) {
+  if (config.network == NetworkProfile::kLoopback) {
+    return std::vector<std::string>{kLoopback};
+  }
+  std::vector<std::string> addresses;
+  if (config.network == NetworkProfile::kLan) {
+    return addresses;
+  }
+  const auto known = NamesAndAddresses();
+  for (const std::string& wanted : config.interfaces) {
+    const auto it = std::find_if(known.begin(), known.end(), [&](const auto& name_and_address) {
+      return name_and_address.first == wanted || name_and_address.second == wanted;
+    });
+    if (it == known.end()) {
+      return Error{ErrorCode::kUnavailable,
+                   "network interface '" + wanted + "' does not exist on this host or has no IPv4"};
+    }
+    addresses.push_back(it->second);
+  }
+  return addresses;
+}
+
+Result<DomainParticipantQos> ParticipantQos(const BusConfig& config,
+                                            const std::vector<std::string>& addresses) {
+  DomainParticipantQos qos;
+  qos.name(config.participant_name);
+
+  auto udp = std::make_shared<UDPv4TransportDescriptor>();
+  udp->sendBufferSize = kSocketBuffer_bytes;
+  udp->receiveBufferSize = kSocketBuffer_bytes;
+  udp->maxInitialPeersRange = kPeerPorts;
+  udp->interfaceWhiteList = addresses;
+  qos.transport().use_builtin_transports = false;  // they bring shared memory
+  qos.transport().user_transports.push_back(udp);
+
+  const bool loopback = config.network == NetworkProfile::kLoopback;
+  if (loopback) {
+    AddPeer(qos, kLoopback);
+  } else if (!config.peers.empty()) {
+    AddPeer(qos, kDiscoveryGroup);  // a list of peers replaces the group unless it is in it
+  }
+  for (const std::string& peer : config.peers) {
+    if (!IPLocator::isIPv4(peer)) {
+      return Error{ErrorCode::kInvalidArgument, "bus.peers: '" + peer + "' is not an IPv4 address"};
+    }
+    AddPeer(qos, peer);
+  }
+
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  discovery.initial_announcements.count = 20;
+  discovery.initial_announcements.period = Duration_t(0.05);
+  discovery.leaseDuration = Duration_t(10, 0);  // as Cyclone DDS
+  discovery.leaseDuration_announcementperiod = loopback ? Duration_t(0.5) : Duration_t(2, 0);
+  return qos;
+}
+
+}  // namespace limbcast::bus::fastdds

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "common/bus/fastdds/fast_events.hpp"
+#include "common/bus/fastdds/fast_key.hpp"
+#include "common/bus/fastdds/fast_participant.hpp"
+#include "common/bus/fastdds/fast_qos.hpp"
+#include "common/bus/fastdds/fast_type.hpp"
+#include "common/bus/topics.hpp"
+#include "common/bus/wire/codec.hpp"
+#include "common/bus/wire/wire_types.hpp"
+#include "common/bus/writer.hpp"
+
+namespace limbcast::bus::fastdds {
+
+/// Writes T through one Fast DDS DataWriter. Thread-safe.
+template <typename T>
+class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataWriterListener {
+ public:
+  explicit FastWriter(FastParticipant& participant)
+      : participant_(participant), events_(Topic<T>::kShortName, true, participant.on_event()) {}
+  ~FastWriter() override {
+    if (writer_ != nullptr) {
+      UnregisterAll();
+      participant_.publisher().delete_datawriter(writer_);
+    }
+  }
+  FastWriter(const FastWriter&) = delete;
+  FastWriter& operator=(const FastWriter&) = delete;
+
+  [[nodiscard]] Status Open() {
+    namespace dds = eprosima::fastdds::dds;
+    const auto topic = participant_.TopicOf(Topic<T>::kName, Topic<T>::kShortName,
+                                            dds::TypeSupport(new Type(Codec<T>::kTypeName)));
+    if (!topic) {
+      return topic.error();
+    }
+    const auto qos =
+        WriterQos(Topic<T>::kProfile, Topic<T>::kExclusiveOwnership, participant_.config());
+    writer_ = participant_.publisher().create_datawriter(*topic, qos, this, dds::StatusMask::all());
+    if (writer_ == nullptr) {
+      return Error{ErrorCode::kUnavailable,
+                   "Fast DDS refuses a writer of " + std::string(Topic<T>::kName)};
+    }
+    return Ok();
+  }
+
+  [[nodiscard]] Status Write(const T& value) override {
+    const std::lock_guard lock(mutex_);
+    if (Status encoded = Codec<T>::Encode(value, sample_.wire); !encoded) {
+      return encoded;
+    }
+    const Code code = writer_->write(&sample_, eprosima::fastdds::dds::HANDLE_NIL);
+    if (code != Code::RETCODE_OK) {
+      return Failed("write", code);
+    }
+    if constexpr (Topic<T>::kExclusiveOwnership) {
+      RememberInstance();
+    }
+    events_.Sample();
+    return Ok();
+  }
+
+  [[nodiscard]] Status Dispose(const T& key) override {
+    const std::lock_guard lock(mutex_);
+    Codec<T>::EncodeKey(key, sample_.wire);
+    writer_->register_instance(&sample_);  // it may have been written before a restart
+    const Code code = writer_->dispose(&sample_, eprosima::fastdds::dds::HANDLE_NIL);
+    return code == Code::RETCODE_OK ? Ok() : Failed("dispose", code);
+  }
+
+  void Flush() override {}  // nothing is held back
+  [[nodiscard]] EndpointCounters counters() const override { return events_.counters(); }
+
+ private:
+  using Type = FastType<typename Codec<T>::Wire>;
+  using Code = eprosima::fastrtps::types::ReturnCode_t;
+  using DataWriter = eprosima::fastdds::dds::DataWriter;
+  using Handle = eprosima::fastdds::dds::InstanceHandle_t;
+
+  static Status Failed(const char* what, const Code& code) {
+    const std::string where = std::string(what) + " " + std::string(Topic<T>::kName) + ": ";
+    if (code == Code::RETCODE_TIMEOUT) {
+      return Error{ErrorCode::kTimeout, where + "readers did not make room in 100 ms"};
+    }
+    return Error{ErrorCode::kUnavailable, where + "Fast DDS return code " + std::to_string(code())};
+  }
+
+  void RememberInstance() {
+    Handle handle;
+    if (HandleOf(sample_.wire, handle)) {
+      written_.insert(handle);
+    }
+  }
+
+  // A weaker writer takes over at once when the owner says good-bye to its instances.
+  void UnregisterAll() {
+    for (const Handle& handle : written_) {
+      if (KeyOfHandle<T>(handle, sample_.wire)) {
+        writer_->unregister_instance(&sample_, handle);
+      }
+    }
+  }
+
+  void on_publication_matched(
+      DataWriter* /*writer*/,
+      const eprosima::fastdds::dds::PublicationMatchedStatus& status) override {
+    events_.Matched(status.current_count_change, status.current_count);
+  }
+  void on_offered_incompatible_qos(
+      DataWriter* /*writer*/,
+      const eprosima::fastdds::dds::OfferedIncompatibleQosStatus& status) override {
+    events_.IncompatibleQos(status.total_count_change, PolicyName(status.last_policy_id));
+  }
+
+  FastParticipant& participant_;
+  FastEvents events_;
+  std::mutex mutex_;  // guards the next two and keeps samples in the order of the calls
+  FastSample<typename Codec<T>::Wire> sample_;
+  std::set<Handle> written_;
+  DataWriter* writer_ = nullptr;
+};
+
+}  // namespace limbcast::bus::fastdds
