@@ -10,9 +10,9 @@ foreach(idl IN LISTS idl_files)
 endforeach()
 set(staging ${OUTPUT}/staging)
 file(REMOVE_RECURSE ${staging})
-file(MAKE_DIRECTORY ${staging})
+file(MAKE_DIRECTORY ${staging}/preprocessed)  # not /tmp: two builds may run at once
 
-execute_process(COMMAND ${FASTDDSGEN} -replace -cs -d ${staging} ${idl_files}
+execute_process(COMMAND ${FASTDDSGEN} -replace -cs -t ${staging}/preprocessed -d ${staging} ${idl_files}
   RESULT_VARIABLE exit_status OUTPUT_VARIABLE text ERROR_VARIABLE error_text)
 string(APPEND text "${error_text}")
 string(TOLOWER "${text}" lower_text)
