@@ -1,51 +1,31 @@
 #include "common/bus/fastdds/fast_bus.hpp"
 
-#include <tuple>
 #include <utility>
 
 #include "common/bus/fastdds/fast_endpoints.hpp"
 #include "common/bus/fastdds/fast_participant.hpp"
+#include "common/bus/implement_ports.hpp"
 
 namespace limbcast::bus::fastdds {
 namespace {
 
-// The ports of a type list, one class for each type on top of the next.
-template <typename List>
-class FastPorts;
-
-template <>
-class FastPorts<std::tuple<>> : public Bus {
+class FastBus final : public ImplementPorts<FastBus, AllTopics> {
  public:
-  explicit FastPorts(std::unique_ptr<FastParticipant> participant)
+  explicit FastBus(std::unique_ptr<FastParticipant> participant)
       : participant_(std::move(participant)) {}
-
- protected:
-  using Bus::DoMakeReader;
-  using Bus::DoMakeWriter;
-  std::unique_ptr<FastParticipant> participant_;
-};
-
-template <typename T, typename... Rest>
-class FastPorts<std::tuple<T, Rest...>> : public FastPorts<std::tuple<Rest...>> {
- public:
-  using FastPorts<std::tuple<Rest...>>::FastPorts;
-
- protected:
-  using FastPorts<std::tuple<Rest...>>::DoMakeReader;
-  using FastPorts<std::tuple<Rest...>>::DoMakeWriter;
-  Result<std::unique_ptr<Writer<T>>> DoMakeWriter(TypeTag<T> /*tag*/) override {
-    return MakeFastWriter<T>(*this->participant_);
-  }
-  Result<std::unique_ptr<Reader<T>>> DoMakeReader(TypeTag<T> /*tag*/,
-                                                  ReaderHandler<T> handler) override {
-    return MakeFastReader<T>(*this->participant_, std::move(handler));
-  }
-};
-
-class FastBus final : public FastPorts<AllTopics> {
- public:
-  using FastPorts<AllTopics>::FastPorts;
   [[nodiscard]] std::string Describe() const override { return participant_->Describe(); }
+
+  template <typename T>
+  Result<std::unique_ptr<Writer<T>>> MakeTypedWriter() {
+    return MakeFastWriter<T>(*participant_);
+  }
+  template <typename T>
+  Result<std::unique_ptr<Reader<T>>> MakeTypedReader(ReaderHandler<T> handler) {
+    return MakeFastReader<T>(*participant_, std::move(handler));
+  }
+
+ private:
+  std::unique_ptr<FastParticipant> participant_;
 };
 
 }  // namespace

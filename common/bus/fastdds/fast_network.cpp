@@ -3,10 +3,12 @@
 #include <arpa/inet.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <ifaddrs.h>
+#include <netdb.h>
 #include <netinet/in.h>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -24,6 +26,14 @@ constexpr std::uint32_t kPeerPorts = 64;  // participants that one address may h
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // DDSI-RTPS 9.6.1.4
 
+std::string Text(const sockaddr& generic) {
+  sockaddr_in address{};
+  std::memcpy(&address, &generic, sizeof(address));
+  char text[INET_ADDRSTRLEN] = {};
+  inet_ntop(AF_INET, &address.sin_addr, text, sizeof(text));
+  return text;
+}
+
 std::vector<std::pair<std::string, std::string>> NamesAndAddresses() {
   std::vector<std::pair<std::string, std::string>> found;
   ifaddrs* list = nullptr;
@@ -34,15 +44,24 @@ std::vector<std::pair<std::string, std::string>> NamesAndAddresses() {
     if (it->ifa_addr == nullptr || it->ifa_addr->sa_family != AF_INET) {
       continue;
     }
-    sockaddr_in address{};
-    std::copy_n(reinterpret_cast<const char*>(it->ifa_addr), sizeof(address),
-                reinterpret_cast<char*>(&address));
-    char text[INET_ADDRSTRLEN] = {};
-    inet_ntop(AF_INET, &address.sin_addr, text, sizeof(text));
-    found.emplace_back(it->ifa_name, text);
+    found.emplace_back(it->ifa_name, Text(*it->ifa_addr));
   }
   freeifaddrs(list);
   return found;
+}
+
+// The IPv4 address of a host name or address; empty when there is none.
+std::string Resolve(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) {
+    return {};
+  }
+  std::string text = Text(*found->ai_addr);
+  freeaddrinfo(found);
+  return text;
 }
 
 void AddPeer(DomainParticipantQos& qos, const std::string& address) {
@@ -96,10 +115,11 @@ Result<DomainParticipantQos> ParticipantQos(const BusConfig& config,
     AddPeer(qos, kDiscoveryGroup);  // a list of peers replaces the group unless it is in it
   }
   for (const std::string& peer : config.peers) {
-    if (!IPLocator::isIPv4(peer)) {
-      return Error{ErrorCode::kInvalidArgument, "bus.peers: '" + peer + "' is not an IPv4 address"};
+    const std::string address = Resolve(peer);
+    if (address.empty()) {
+      return Error{ErrorCode::kUnavailable, "bus.peers: no IPv4 address for '" + peer + "'"};
     }
-    AddPeer(qos, peer);
+    AddPeer(qos, address);
   }
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;

@@ -84,6 +84,7 @@ Status FastParticipant::Open() {
 }
 
 FastParticipant::~FastParticipant() {
+  sink_->Close();
   if (participant_ != nullptr) {
     participant_->delete_contained_entities();
     dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
@@ -151,12 +152,10 @@ void FastParticipant::CompareTypes(const std::string& topic, const std::string& 
 
 void FastParticipant::RaiseTypeMismatch(std::string_view short_name, const std::string& ours,
                                         const std::string& theirs) {
-  if (on_event_) {
-    on_event_({.kind = BusEventKind::kTypeMismatch,
+  sink_->Emit({.kind = BusEventKind::kTypeMismatch,
                .topic = short_name,
                .count = 1,
                .detail = "ours " + ours + ", theirs " + theirs});
-  }
 }
 
 std::string FastParticipant::Describe() const {

@@ -14,6 +14,7 @@
 
 #include "common/base/result.hpp"
 #include "common/bus/bus_config.hpp"
+#include "common/bus/endpoint_events.hpp"
 #include "common/bus/events.hpp"
 
 namespace limbcast::bus::fastdds {
@@ -37,7 +38,7 @@ class FastParticipant final : private eprosima::fastdds::dds::DomainParticipantL
   [[nodiscard]] eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   [[nodiscard]] eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
   [[nodiscard]] const BusConfig& config() const { return config_; }
-  [[nodiscard]] const BusEventHandler& on_event() const { return on_event_; }
+  [[nodiscard]] const std::shared_ptr<EventSink>& sink() const { return sink_; }
   [[nodiscard]] std::string Describe() const;
 
  private:
@@ -47,7 +48,7 @@ class FastParticipant final : private eprosima::fastdds::dds::DomainParticipantL
   };
 
   FastParticipant(const BusConfig& config, BusEventHandler on_event)
-      : config_(config), on_event_(std::move(on_event)) {}
+      : config_(config), sink_(std::make_shared<EventSink>(std::move(on_event))) {}
   [[nodiscard]] Status Open();
 
   void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
@@ -60,7 +61,7 @@ class FastParticipant final : private eprosima::fastdds::dds::DomainParticipantL
                          const std::string& theirs);
 
   BusConfig config_;
-  BusEventHandler on_event_;
+  std::shared_ptr<EventSink> sink_;
   std::string addresses_;  // in use, for Describe
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;

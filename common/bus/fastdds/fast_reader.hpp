@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "common/bus/fastdds/fast_events.hpp"
+#include "common/bus/endpoint_events.hpp"
 #include "common/bus/fastdds/fast_key.hpp"
 #include "common/bus/fastdds/fast_participant.hpp"
 #include "common/bus/fastdds/fast_qos.hpp"
@@ -27,7 +27,7 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
  public:
   FastReader(FastParticipant& participant, ReaderHandler<T> handler)
       : participant_(participant),
-        events_(Topic<T>::kShortName, false, participant.on_event()),
+        events_(Topic<T>::kShortName, false, participant.sink()),
         handler_(std::move(handler)) {}
   ~FastReader() override {
     {
@@ -91,7 +91,9 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
     }
     known_.insert(handle);
     events_.Sample();
-    handler_.on_sample(value_, {.received_at = Now()});
+    if (handler_.on_sample) {
+      handler_.on_sample(value_, {.received_at = Now()});
+    }
   }
 
   // A dispose comes without data, and the library cannot tell the key of a handle. The handle is
@@ -140,7 +142,7 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
   }
 
   FastParticipant& participant_;
-  FastEvents events_;
+  EndpointEvents events_;
   ReaderHandler<T> handler_;
   std::mutex mutex_;  // one call of the handler at a time; guards what follows
   bool closed_ = false;

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "common/bus/fastdds/fast_events.hpp"
+#include "common/bus/endpoint_events.hpp"
 #include "common/bus/fastdds/fast_key.hpp"
 #include "common/bus/fastdds/fast_participant.hpp"
 #include "common/bus/fastdds/fast_qos.hpp"
@@ -23,7 +23,7 @@ template <typename T>
 class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataWriterListener {
  public:
   explicit FastWriter(FastParticipant& participant)
-      : participant_(participant), events_(Topic<T>::kShortName, true, participant.on_event()) {}
+      : participant_(participant), events_(Topic<T>::kShortName, true, participant.sink()) {}
   ~FastWriter() override {
     if (writer_ != nullptr) {
       UnregisterAll();
@@ -119,7 +119,7 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
   }
 
   FastParticipant& participant_;
-  FastEvents events_;
+  EndpointEvents events_;
   std::mutex mutex_;  // guards the next two and keeps samples in the order of the calls
   FastSample<typename Codec<T>::Wire> sample_;
   std::set<Handle> written_;
