@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/base/tracking.hpp"
+
+namespace limbcast::filters {
+
+/// What FieldMonitor remembers; copied as bytes when a filter saves its state.
+struct FieldMonitorState {
+  double mean_deviation = 0.0;  // units of the reference field
+};
+
+/// Says whether the field agrees with the reference, without needing heading: norm and vertical
+/// part are compared, averaged over 0.3 s; 0.15 of the reference field is disturbed.
+/// Thread-compatible.
+class FieldMonitor {
+ public:
+  /// @param mag_in_earth  field turned by the current estimate, in units of the reference norm.
+  /// @param reference     in the same unit, norm 1.
+  void Update(const Eigen::Vector3d& mag_in_earth, const Eigen::Vector3d& reference, double dt_s);
+  [[nodiscard]] MagneticState magnetic_state() const;
+  void Clear() { state_ = {}; }
+
+  [[nodiscard]] const FieldMonitorState& state() const { return state_; }
+  [[nodiscard]] FieldMonitorState& mutable_state() { return state_; }
+
+ private:
+  FieldMonitorState state_;
+};
+
+}  // namespace limbcast::filters
