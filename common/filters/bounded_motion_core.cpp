@@ -1,8 +1,11 @@
-// Notation: E earth (ENU), S sensor; q_ES and R turn S into E. Symbols as in the header's error vector.
+// Notation: E earth (ENU), S sensor; q_ES and R turn S into E. Symbols as in the header's error
+// vector.
 #include "common/filters/bounded_motion_core.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "common/filters/filter_constants.hpp"
 
 namespace limbcast::filters {
 namespace {
@@ -14,8 +17,8 @@ constexpr int kP = 8;
 constexpr int kBa = 10;
 constexpr int kBm = 13;
 constexpr int kS = 16;
+constexpr int kM0 = 25;
 
-constexpr double kGravity_m_s2 = 9.81;
 constexpr double kMaxGyroBias_rad_s = 2.0 * 3.14159265358979323846 / 180.0;
 constexpr double kRestLowPass_s = 0.5;
 constexpr double kRestGyro_rad_s = 2.0 * 3.14159265358979323846 / 180.0;
@@ -78,8 +81,8 @@ BoundedMotionCore<Scalar>::BoundedMotionCore(const BoundedMotionConfig& config)
 }
 
 template <typename Scalar>
-void BoundedMotionCore<Scalar>::Start(const Eigen::Quaternion<Scalar>& q_earth_sensor, const Vector3& mag_in_earth,
-                                      bool keep_learned) {
+void BoundedMotionCore<Scalar>::Start(const Eigen::Quaternion<Scalar>& q_earth_sensor,
+                                      const Vector3& mag_in_earth, bool keep_learned) {
   const Eigen::Matrix<Scalar, State::kRows, State::kDim> P_before = state_.P;
   state_.q_ES = q_earth_sensor;
   state_.v_h.setZero();
@@ -116,6 +119,16 @@ void BoundedMotionCore<Scalar>::AdoptField(const Vector3& mag_in_earth) {
 }
 
 template <typename Scalar>
+void BoundedMotionCore<Scalar>::TurnHeading(const Eigen::Quaternion<Scalar>& q_turn) {
+  // Velocity, position and the sums so far are in the old heading: they start again.
+  state_.q_ES = q_turn * state_.q_ES;
+  state_.v_h.setZero();
+  state_.p_h.setZero();
+  ClearSums();
+  ResetCovariance();
+}
+
+template <typename Scalar>
 void BoundedMotionCore<Scalar>::ResetCovariance() {
   const auto square = [](double sigma) { return static_cast<Scalar>(sigma * sigma); };
   state_.P.setZero();
@@ -129,6 +142,7 @@ void BoundedMotionCore<Scalar>::ResetCovariance() {
   for (int i = 0; i < 2; ++i) {
     state_.P(kV + i, kV + i) = Scalar(1e-2);
     state_.P(kP + i, kP + i) = Scalar(1e-2);
+    state_.P(kM0 + i, kM0 + i) = square(config_.sigma_reference_start_ref);
   }
   for (int i = 0; i < 9; ++i) {
     state_.P(kS + i, kS + i) = square(config_.sigma_gyro_matrix_start);
@@ -219,7 +233,8 @@ void BoundedMotionCore<Scalar>::SlowStep() {
   means.has_m = s.n_m > 0 && s.has_field;
   means.f = means.has_f ? Vector3(s.sum_f / static_cast<Scalar>(s.n_f))
                         : Vector3(0, 0, static_cast<Scalar>(kGravity_m_s2));
-  means.m = means.has_m ? Vector3(s.sum_m / (static_cast<Scalar>(s.n_m) * s.m_ref)) : Vector3::Zero();
+  means.m =
+      means.has_m ? Vector3(s.sum_m / (static_cast<Scalar>(s.n_m) * s.m_ref)) : Vector3::Zero();
   means.w2 = s.sum_w2 / n;
 
   const Scalar T = means.T;
@@ -244,8 +259,9 @@ void BoundedMotionCore<Scalar>::SlowStep() {
   GuardCovariance();
 }
 
-// P ← F P Fᵀ + Q. With M = P Fᵀ, rows of F M outside {δθ, δv, δp} are those of M, and by symmetry the columns are
-// their transposes; only the 7×7 block of those three needs F applied from the left.
+// P ← F P Fᵀ + Q. With M = P Fᵀ, rows of F M outside {δθ, δv, δp} are those of M, and by symmetry
+// the columns are their transposes; only the 7×7 block of those three needs F applied from the
+// left.
 template <typename Scalar>
 void BoundedMotionCore<Scalar>::Propagate(const Means& means) {
   State& s = state_;
@@ -261,12 +277,14 @@ void BoundedMotionCore<Scalar>::Propagate(const Means& means) {
     P.col(kP + i) += T * P.col(kV + i);
   }
   for (int i = 0; i < 2; ++i) {
-    P.col(kV + i) += V_theta(i, 0) * P.col(0) + V_theta(i, 1) * P.col(1) + V_theta(i, 2) * P.col(2) +
-                     V_ba(i, 0) * P.col(kBa) + V_ba(i, 1) * P.col(kBa + 1) + V_ba(i, 2) * P.col(kBa + 2);
+    P.col(kV + i) += V_theta(i, 0) * P.col(0) + V_theta(i, 1) * P.col(1) +
+                     V_theta(i, 2) * P.col(2) + V_ba(i, 0) * P.col(kBa) +
+                     V_ba(i, 1) * P.col(kBa + 1) + V_ba(i, 2) * P.col(kBa + 2);
   }
   for (int i = 0; i < 3; ++i) {
     auto column = P.col(kTheta + i);
-    column += Th_bg(i, 0) * P.col(kBg) + Th_bg(i, 1) * P.col(kBg + 1) + Th_bg(i, 2) * P.col(kBg + 2);
+    column +=
+        Th_bg(i, 0) * P.col(kBg) + Th_bg(i, 1) * P.col(kBg + 1) + Th_bg(i, 2) * P.col(kBg + 2);
     column -= W(i, 0) * P.col(kS) + W(i, 1) * P.col(kS + 1) + W(i, 2) * P.col(kS + 2);
     column -= W(i, 3) * P.col(kS + 3) + W(i, 4) * P.col(kS + 4) + W(i, 5) * P.col(kS + 5);
     column -= W(i, 6) * P.col(kS + 6) + W(i, 7) * P.col(kS + 7) + W(i, 8) * P.col(kS + 8);
@@ -282,7 +300,8 @@ void BoundedMotionCore<Scalar>::Propagate(const Means& means) {
         Th_bg * column.template segment<3>(kBg) - W * column.template segment<9>(kS);
   }
   // the other columns' rows of that block, by symmetry
-  constexpr int kOther[18] = {3, 4, 5, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24};
+  constexpr int kOther[20] = {3,  4,  5,  10, 11, 12, 13, 14, 15, 16,
+                              17, 18, 19, 20, 21, 22, 23, 24, 25, 26};
   for (const int c : kOther) {
     for (const int r : kChanged) {
       P(r, c) = P(c, r);
@@ -303,12 +322,14 @@ void BoundedMotionCore<Scalar>::Propagate(const Means& means) {
   add(kBg, 3, config_.walk_gyro_bias_rad_s_rts);
   add(kV, 2, config_.sigma_accel_m_s2_rthz);
   if (!means.has_f) {
-    // No accelerometer in this step: the horizontal acceleration is anything a limb does (about 5 m/s²).
+    // No accelerometer in this step: the horizontal acceleration is anything a limb does (about 5
+    // m/s²).
     add(kV, 2, 5.0 * std::sqrt(static_cast<double>(T)));
   }
   add(kBa, 3, config_.walk_accel_bias_m_s2_rts);
   add(kBm, 3, config_.walk_carried_field_ref_rts);
   add(kS, 9, config_.walk_gyro_matrix_rts);
+  add(kM0, 2, config_.walk_reference_ref_rts);
 }
 
 template <typename Scalar>
@@ -317,11 +338,12 @@ void BoundedMotionCore<Scalar>::CheckField(const Means& means) {
   const Scalar T = means.T;
   const Vector3 m_b = means.m - means.R * s.b_m;
   // Heading-free: the norm and the vertical part do not depend on heading.
-  const Scalar deviation = std::hypot(m_b.norm() - Scalar(1), m_b.z() - s.m_0.z());
-  s.deviation_hold =
-      std::max(deviation, s.deviation_hold * std::exp(-T / static_cast<Scalar>(config_.deviation_hold_s)));
-  s.deviation_mean += (Scalar(1) - std::exp(-T / static_cast<Scalar>(config_.carried_jump_time_s))) *
-                      (deviation - s.deviation_mean);
+  const Scalar deviation = std::hypot(m_b.norm() - s.m_0.norm(), m_b.z() - s.m_0.z());
+  s.deviation_hold = std::max(
+      deviation, s.deviation_hold * std::exp(-T / static_cast<Scalar>(config_.deviation_hold_s)));
+  s.deviation_mean +=
+      (Scalar(1) - std::exp(-T / static_cast<Scalar>(config_.carried_jump_time_s))) *
+      (deviation - s.deviation_mean);
   if (s.deviation_mean > static_cast<Scalar>(config_.carried_jump_threshold_ref)) {
     const Scalar step = static_cast<Scalar>(config_.carried_jump_ref_rts) * s.deviation_mean;
     for (int i = kBm; i < kBm + 3; ++i) {
@@ -333,7 +355,8 @@ void BoundedMotionCore<Scalar>::CheckField(const Means& means) {
 // z observes the N neighbouring error states from `first` directly, each with the same variance.
 template <typename Scalar>
 template <int N>
-void BoundedMotionCore<Scalar>::CorrectDirect(int first, const Eigen::Matrix<Scalar, N, 1>& z, Scalar variance) {
+void BoundedMotionCore<Scalar>::CorrectDirect(int first, const Eigen::Matrix<Scalar, N, 1>& z,
+                                              Scalar variance) {
   auto& P = state_.P;
   const Eigen::Matrix<Scalar, State::kRows, N> D = P.template middleCols<N>(first);
   Eigen::Matrix<Scalar, N, N> innovation = D.template middleRows<N>(first);
@@ -365,9 +388,9 @@ void BoundedMotionCore<Scalar>::CorrectBounds(Scalar T) {
   }
 }
 
-// z = m_b − m_0, H_θ = [m_b×], H_bm = R̄. The magnetometer must not tilt the estimate: the gain rows of δθ_x and δθ_y
-// are zero, and with the arbitrary-gain form P − K Dᵀ − D Kᵀ + K Σ Kᵀ (D = P Hᵀ) everything but the 2×2 tilt block
-// comes out as in the optimal update.
+// z = m_b − m_0, H_θ = [m_b×], H_bm = R̄, H_m0 = (e_y, e_z). The magnetometer must not tilt the
+// estimate: the gain rows of δθ_x and δθ_y are zero, and with the arbitrary-gain form P − K Dᵀ − D
+// Kᵀ + K Σ Kᵀ (D = P Hᵀ) everything but the 2×2 tilt block comes out as in the optimal update.
 template <typename Scalar>
 void BoundedMotionCore<Scalar>::CorrectField(const Means& means) {
   State& s = state_;
@@ -375,9 +398,13 @@ void BoundedMotionCore<Scalar>::CorrectField(const Means& means) {
   const Vector3 z = means.m_b - s.m_0;
   const Matrix3 H_theta = Skew<Scalar>(means.m_b);
   const Matrix3& H_bm = means.R;
-  const Eigen::Matrix<Scalar, State::kRows, 3> D =
-      P.template middleCols<3>(kTheta) * H_theta.transpose() + P.template middleCols<3>(kBm) * H_bm.transpose();
-  Matrix3 innovation = H_theta * D.template middleRows<3>(kTheta) + H_bm * D.template middleRows<3>(kBm);
+  Eigen::Matrix<Scalar, State::kRows, 3> D =
+      P.template middleCols<3>(kTheta) * H_theta.transpose() +
+      P.template middleCols<3>(kBm) * H_bm.transpose();
+  D.template rightCols<2>() += P.template middleCols<2>(kM0);
+  Matrix3 innovation =
+      H_theta * D.template middleRows<3>(kTheta) + H_bm * D.template middleRows<3>(kBm);
+  innovation.template bottomRows<2>() += D.template middleRows<2>(kM0);
   const auto k_R = static_cast<Scalar>(config_.k_deviation_rts);
   const auto r_m = static_cast<Scalar>(config_.sigma_mag_ref_rts);
   const Scalar spread = k_R * s.deviation_hold;
@@ -408,6 +435,7 @@ void BoundedMotionCore<Scalar>::Inject(const Eigen::Matrix<Scalar, State::kRows,
   s.p_h += dx.template segment<2>(kP);
   s.b_a += dx.template segment<3>(kBa);
   s.b_m += dx.template segment<3>(kBm);
+  s.m_0.template tail<2>() += dx.template segment<2>(kM0);
   for (int j = 0; j < 3; ++j) {
     s.S.col(j) += dx.template segment<3>(kS + 3 * j);
   }

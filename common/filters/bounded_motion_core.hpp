@@ -19,13 +19,15 @@ struct BoundedMotionInput {
   bool rest_allowed = true;  ///< false: the gyro value is not a reading
 };
 
-/// Everything the core remembers; trivially copyable, so that it can be saved, restored and compared.
+/// Everything the core remembers; trivially copyable, so that it can be saved, restored and
+/// compared.
 ///
 /// Error convention: R_true = Exp(δθ)·R̂ (earth frame), every other error is truth − estimate.
-/// Order of the error vector: δθ 0–2, δb_g 3–5, δv_h 6–7, δp_h 8–9, δb_a 10–12, δb_m 13–15, δS 16–24 (by columns).
+/// Order of the error vector: δθ 0–2, δb_g 3–5, δv_h 6–7, δp_h 8–9, δb_a 10–12, δb_m 13–15, δS
+/// 16–24 (by columns), δm_0 25–26 (north, up).
 template <typename Scalar>
 struct BoundedMotionState {
-  static constexpr int kDim = 25;
+  static constexpr int kDim = 27;
   static constexpr int kRows = 28;  // padded, so that every column starts aligned
   using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
   using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
@@ -35,8 +37,8 @@ struct BoundedMotionState {
   Vector3 b_g, b_a, b_m;
   Matrix3 S;
   Eigen::Matrix<Scalar, 2, 1> v_h, p_h;
-  Vector3 m_0;       // reference field, units of |m| at start: (0, north, up)
-  Scalar m_ref;      // |m| at start, unit of the input
+  Vector3 m_0;   // reference field, units of |m| at start: (0, north, up)
+  Scalar m_ref;  // |m| at start, unit of the input
   bool has_field;
 
   // sums of the fast loop since the last slow step
@@ -56,9 +58,10 @@ struct BoundedMotionState {
   std::uint32_t slow_steps;
 };
 
-/// The bounded-motion multi-rate error-state Kalman filter of one sensor, without time stamps and bad input (see
-/// BoundedMotionFilter for those). Attitude is integrated with every sample; covariance and corrections run at the
-/// slow rate on sums over the samples in between. Earth frame: ENU. Thread-compatible; allocates nothing.
+/// The bounded-motion multi-rate error-state Kalman filter of one sensor, without time stamps and
+/// bad input (see BoundedMotionFilter for those). Attitude is integrated with every sample;
+/// covariance and corrections run at the slow rate on sums over the samples in between. Earth
+/// frame: ENU. Thread-compatible; allocates nothing.
 template <typename Scalar>
 class BoundedMotionCore {
  public:
@@ -73,15 +76,21 @@ class BoundedMotionCore {
   /// Starts (or restarts) the attitude; keeps b_g, S and b_a when `keep_learned`.
   ///
   /// @param q_earth_sensor  unit.
-  /// @param mag_in_earth    mean field turned to the earth frame by q_earth_sensor, or zero when there is none.
-  void Start(const Eigen::Quaternion<Scalar>& q_earth_sensor, const Vector3& mag_in_earth, bool keep_learned);
+  /// @param mag_in_earth    mean field turned to the earth frame by q_earth_sensor, or zero when
+  /// there is none.
+  void Start(const Eigen::Quaternion<Scalar>& q_earth_sensor, const Vector3& mag_in_earth,
+             bool keep_learned);
 
   /// The two steps of one sample: integrate, and correct when a slow step is complete.
   void Update(const Input& input);
 
-  /// The field reference from the first usable magnetometer readings, when the start had none: heading stays where
-  /// it is.
+  /// The field reference from the first usable magnetometer readings, when the start had none:
+  /// heading stays where it is.
   void AdoptField(const Vector3& mag_in_earth);
+
+  /// Turns the attitude about the vertical, e.g. to the north of a field that is seen for the first
+  /// time; heading is then as uncertain as at a start.
+  void TurnHeading(const Eigen::Quaternion<Scalar>& q_turn);
 
   /// Adds to the attitude variance (all axes) with the next slow step, e.g. for a bridged gap.
   void InflateAttitude(Scalar variance_rad2) { state_.sum_extra_theta += variance_rad2; }

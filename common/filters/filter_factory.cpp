@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "common/filters/bounded_motion_filter.hpp"
 #include "common/filters/gauss_newton_orientation.hpp"
 
 namespace limbcast::filters {
@@ -19,7 +20,16 @@ FilterResult Make(std::string_view name, std::span<const SettingField<Config>> f
   return std::unique_ptr<OrientationFilter>(std::make_unique<Filter>(*config));
 }
 
-constexpr std::array<std::string_view, 1> kNames = {"tqt"};
+constexpr std::array<std::string_view, 3> kNames = {"tqt", "bmf", "bmf-plain"};
+
+FilterResult MakeBoundedMotion(std::string_view name, std::span<const Setting> settings,
+                               const BoundedMotionConfig& defaults) {
+  auto config = ConfigFromSettings<BoundedMotionConfig>(name, BoundedMotionFields(), settings, defaults);
+  if (!config) {
+    return config.error();
+  }
+  return MakeBoundedMotionFilter(*config, name);
+}
 
 }  // namespace
 
@@ -29,6 +39,12 @@ Result<std::unique_ptr<OrientationFilter>> MakeFilter(std::string_view name,
                                                       std::span<const Setting> settings) {
   if (name == "tqt") {
     return Make<GaussNewtonOrientation>(name, GaussNewtonFields(), settings);
+  }
+  if (name == "bmf") {
+    return MakeBoundedMotion("bmf", settings, BoundedMotionConfig());
+  }
+  if (name == "bmf-plain") {
+    return MakeBoundedMotion("bmf-plain", settings, PlainBoundedMotionConfig());
   }
   return Error{ErrorCode::kInvalidArgument, "filter must be " + internal::ChoicesText(kNames) +
                                                 ", is '" + std::string(name) + "'"};

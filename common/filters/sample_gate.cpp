@@ -119,10 +119,11 @@ GatedSample SampleGate::Pass(const sensing::MargSample& sample) {
   if (!out.usable()) {
     return out;
   }
+  if (state_.has_time && out.dt_s > 0.0) {
+    LearnNominal(out.dt_s, out.gap || out.restart);
+  }
   if (out.restart) {
     out.dt_s = 0.0;
-  } else {
-    LearnNominal(out.dt_s, out.gap);
   }
   FillGyro(gyro_usable, gyro_rad_s, out);
   state_.mag_absent_s = out.mag_valid ? 0.0 : state_.mag_absent_s + out.dt_s;

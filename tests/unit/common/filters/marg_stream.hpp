@@ -26,8 +26,8 @@ struct MargStreamConfig {
   double dip_rad = 1.17;  ///< 67°, middle Europe
   double field_tesla = 48e-6;
   /// Field added in sensor axes (carried magnet) and in earth axes (iron nearby), by time.
-  std::function<Eigen::Vector3d(double)> carried_tesla;
-  std::function<Eigen::Vector3d(double)> nearby_tesla;
+  std::function<Eigen::Vector3d(double)> carried_tesla{};
+  std::function<Eigen::Vector3d(double)> nearby_tesla{};
 };
 
 /// Samples and truth of one synthetic sensor. The reading of the gyro is the mean rate since the

@@ -1,0 +1,200 @@
+// Notation: E earth (ENU), S sensor; q_ES turns S into E.
+#include "common/filters/bounded_motion_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/filters/filter_constants.hpp"
+#include "common/filters/filter_state_codec.hpp"
+#include "common/math/rotation.hpp"
+
+namespace limbcast::filters {
+namespace {
+
+constexpr std::uint32_t kStateVersion = 1;
+constexpr double kMagneticUnusedAfter_s = 1.0;
+constexpr double kDisturbedAbove_ref = 0.15;
+constexpr double kSaturatedRateShare = 0.2;
+constexpr int kMostSubSteps = 500;
+
+}  // namespace
+
+template <typename Scalar>
+BoundedMotionFilter<Scalar>::BoundedMotionFilter(const BoundedMotionConfig& config,
+                                                 std::string_view name)
+    : core_(config), name_(name) {
+  Expects(Validate(config).ok(), "a valid BoundedMotionConfig");
+}
+
+template <typename Scalar>
+void BoundedMotionFilter<Scalar>::Reset() {
+  core_ = BoundedMotionCore<Scalar>(core_.config());
+  state_ = State();
+}
+
+template <typename Scalar>
+std::size_t BoundedMotionFilter<Scalar>::state_size_bytes() const {
+  return SavedStateSize_bytes<Saved>();
+}
+
+template <typename Scalar>
+void BoundedMotionFilter<Scalar>::SaveState(std::span<std::byte> out) const {
+  WriteState(name_, kStateVersion, Saved{state_, core_.state()}, out);
+}
+
+template <typename Scalar>
+Status BoundedMotionFilter<Scalar>::RestoreState(std::span<const std::byte> in) {
+  Saved saved{state_, core_.state()};
+  if (Status read = ReadState(name_, kStateVersion, in, saved); !read) {
+    return read;
+  }
+  state_ = saved.state;
+  core_.mutable_state() = saved.core;
+  return Ok();
+}
+
+template <typename Scalar>
+SampleVerdict BoundedMotionFilter<Scalar>::Update(const sensing::MargSample& sample) {
+  const GatedSample gated = state_.gate.Pass(sample);
+  if (!gated.usable()) {
+    return gated.verdict;
+  }
+  if (gated.restart) {
+    state_.heading_before_rad = math::Heading_rad(state_.estimate.q_earth_sensor);
+    state_.starting = true;
+    state_.start.Clear();
+  }
+  if (state_.starting) {
+    return UpdateStart(gated);
+  }
+  if (gated.mag_valid && !core_.state().has_field) {
+    AdoptField(core_.state().q_ES.template cast<double>() * gated.mag_tesla);
+  }
+  Feed(gated, gated.mag_valid);
+  Report(gated);
+  return gated.accel_valid ? SampleVerdict::kFused : SampleVerdict::kPredictedOnly;
+}
+
+template <typename Scalar>
+SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart(const GatedSample& sample) {
+  FilterEstimate& estimate = state_.estimate;
+  state_.start.Add(sample.gyro_rad_s - core_.state().b_g.template cast<double>(), sample.dt_s,
+                   sample.accel_valid ? &sample.accel_m_s2 : nullptr,
+                   sample.mag_valid ? &sample.mag_tesla : nullptr);
+  const auto start = state_.start.Solve();
+  estimate.degraded = estimate.started;
+  if (!start) {
+    return SampleVerdict::kStarting;
+  }
+  // Without a field a restarted filter faces the way it did; a new one faces heading 0.
+  const double heading_rad = start->has_field ? 0.0 : state_.heading_before_rad;
+  estimate.q_earth_sensor = math::NearestSign(
+      math::ExpSO3({0.0, 0.0, heading_rad}) * start->q_earth_sensor, estimate.q_earth_sensor);
+  if (!state_.start.complete(core_.config().init_time_s)) {
+    return SampleVerdict::kStarting;
+  }
+  const bool keep_reference = core_.state().has_field;
+  core_.Start(estimate.q_earth_sensor.template cast<Scalar>(),
+              start->has_field && !keep_reference
+                  ? Vector3(start->mag_in_earth_tesla.template cast<Scalar>())
+                  : Vector3::Zero(),
+              estimate.started);
+  estimate.started = true;
+  state_.starting = false;
+  Report(sample);
+  return SampleVerdict::kFused;
+}
+
+// The first field that is seen says where north is: heading moves there at once.
+template <typename Scalar>
+void BoundedMotionFilter<Scalar>::AdoptField(const Eigen::Vector3d& mag_in_earth_tesla) {
+  if (!(std::hypot(mag_in_earth_tesla.x(), mag_in_earth_tesla.y()) >
+        1e-6 * mag_in_earth_tesla.norm())) {
+    return;  // vertical: says nothing about heading
+  }
+  const double north_rad = std::atan2(mag_in_earth_tesla.x(), mag_in_earth_tesla.y());
+  const Eigen::Quaterniond q_turn = math::ExpSO3({0.0, 0.0, north_rad});
+  core_.TurnHeading(q_turn.template cast<Scalar>());
+  core_.AdoptField((q_turn * mag_in_earth_tesla).template cast<Scalar>());
+}
+
+// One step, or over a gap several of the nominal length with the mean rate, of which only the last
+// one has readings.
+template <typename Scalar>
+void BoundedMotionFilter<Scalar>::Feed(const GatedSample& sample, bool mag_valid) {
+  BoundedMotionInput<Scalar> input;
+  const bool blind = sample.gyro_absent() && !sample.gyro_held;
+  input.gyro_rad_s = blind ? core_.state().b_g : Vector3(sample.gyro_rad_s.template cast<Scalar>());
+  input.accel_m_s2 = sample.accel_m_s2.template cast<Scalar>();
+  input.mag = sample.mag_tesla.template cast<Scalar>();
+  input.rest_allowed = sample.gyro_measured && !sample.gap;
+  double variance_rad2 = 0.0;
+  int steps = 1;
+  if (sample.gap) {
+    variance_rad2 = kUnseenRate_rad_s * kUnseenRate_rad_s * sample.dt_s * sample.dt_s;
+    const double nominal_s = std::max(state_.gate.state().nominal_dt_s, 1e-4);
+    steps = std::clamp(static_cast<int>(std::ceil(sample.dt_s / nominal_s)), 1, kMostSubSteps);
+  } else if (blind) {
+    variance_rad2 = kUnseenRate_rad_s * kUnseenRate_rad_s * sample.dt_s;
+  } else if (sample.gyro_saturated) {
+    variance_rad2 =
+        kSaturatedRateShare * kSaturatedRateShare * sample.gyro_rad_s.squaredNorm() * sample.dt_s;
+  }
+  core_.InflateAttitude(static_cast<Scalar>(variance_rad2));
+  input.dt_s = static_cast<Scalar>(sample.dt_s / steps);
+  input.accel_valid = false;
+  input.mag_valid = false;
+  for (int i = 1; i < steps; ++i) {
+    core_.Update(input);
+  }
+  input.accel_valid = sample.accel_valid;
+  input.mag_valid = mag_valid && core_.state().has_field;
+  core_.Update(input);
+}
+
+template <typename Scalar>
+void BoundedMotionFilter<Scalar>::Report(const GatedSample& sample) {
+  FilterEstimate& estimate = state_.estimate;
+  const BoundedMotionState<Scalar>& s = core_.state();
+  const double lead_s = core_.config().output_lead_s;
+  Eigen::Quaterniond q_ES = s.q_ES.template cast<double>();
+  estimate.w_earth_sensor_in_sensor_rad_s = s.w_ES_S.template cast<double>();
+  if (sample.accel_valid) {
+    estimate.free_accel_in_earth_m_s2 = q_ES * (sample.accel_m_s2 - s.b_a.template cast<double>()) -
+                                        Eigen::Vector3d(0.0, 0.0, kGravity_m_s2);
+  } else {
+    estimate.free_accel_in_earth_m_s2.setZero();
+  }
+  if (lead_s != 0.0) {
+    q_ES = q_ES * math::ExpSO3(lead_s * estimate.w_earth_sensor_in_sensor_rad_s);
+  }
+  estimate.q_earth_sensor = math::NearestSign(q_ES, estimate.q_earth_sensor);
+  estimate.gyro_bias_rad_s = s.b_g.template cast<double>();
+  estimate.cov_orientation_rad2 = s.P.template topLeftCorner<3, 3>().template cast<double>();
+  estimate.at_rest = core_.at_rest();
+  const double mag_absent_s = state_.gate.mag_absent_s();
+  const bool field_gone = !s.has_field || mag_absent_s > kMagneticUnusedAfter_s;
+  const bool disturbed = static_cast<double>(s.deviation_hold) > kDisturbedAbove_ref;
+  estimate.magnetic_state = field_gone  ? MagneticState::kUnused
+                            : disturbed ? MagneticState::kDisturbed
+                                        : MagneticState::kClean;
+  estimate.heading = s.has_field && mag_absent_s <= kMagneticMemory_s
+                         ? HeadingReference::kMagnetic
+                         : HeadingReference::kArbitrary;
+  estimate.degraded = sample.gap || sample.gyro_saturated || !sample.accel_valid ||
+                      (sample.gyro_absent() && state_.gate.gyro_seen()) ||
+                      (s.has_field && field_gone);
+}
+
+template class BoundedMotionFilter<double>;
+template class BoundedMotionFilter<float>;
+
+std::unique_ptr<OrientationFilter> MakeBoundedMotionFilter(const BoundedMotionConfig& config,
+                                                           std::string_view name) {
+  if (config.precision == BoundedMotionPrecision::kFloat) {
+    return std::make_unique<BoundedMotionFilter<float>>(config, name);
+  }
+  return std::make_unique<BoundedMotionFilter<double>>(config, name);
+}
+
+}  // namespace limbcast::filters

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "common/filters/bounded_motion_core.hpp"
+#include "common/filters/filter.hpp"
+#include "common/filters/sample_gate.hpp"
+#include "common/filters/two_vector_start.hpp"
+
+namespace limbcast::filters {
+
+/// The bounded-motion filter ("bmf"): a multi-rate error-state Kalman filter that is accurate
+/// because it
+///
+/// - knows that a worn sensor stays in a bounded region, so that weak zero-velocity and
+/// zero-position measurements turn
+///   the accelerometer into an optimally low-passed inclination reference;
+/// - learns the gyro's scale and misalignment on line;
+/// - takes a field carried with the sensor for what it is;
+/// - guards heading against a distorted field: the reference field is a state, and the magnetometer
+/// counts by how well
+///   the field agrees with it.
+///
+/// This class adds time stamps, start, gaps and bad input to BoundedMotionCore. Thread-compatible;
+/// allocates nothing after construction.
+template <typename Scalar>
+class BoundedMotionFilter final : public OrientationFilter {
+ public:
+  /// @param config  valid.
+  /// @param name    static storage: "bmf" or "bmf-plain".
+  explicit BoundedMotionFilter(const BoundedMotionConfig& config, std::string_view name = "bmf");
+
+  [[nodiscard]] SampleVerdict Update(const sensing::MargSample& sample) override;
+  [[nodiscard]] const FilterEstimate& estimate() const override { return state_.estimate; }
+  void Reset() override;
+  [[nodiscard]] std::string_view name() const override { return name_; }
+  [[nodiscard]] std::size_t state_size_bytes() const override;
+  void SaveState(std::span<std::byte> out) const override;
+  [[nodiscard]] Status RestoreState(std::span<const std::byte> in) override;
+
+  [[nodiscard]] const BoundedMotionCore<Scalar>& core() const { return core_; }
+
+ private:
+  using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+
+  struct State {
+    FilterEstimate estimate;
+    SampleGate gate;
+    TwoVectorStart start;
+    double heading_before_rad = 0.0;  // of a restart
+    bool starting = true;
+  };
+  struct Saved {
+    State state;
+    BoundedMotionState<Scalar> core;
+  };
+
+  SampleVerdict UpdateStart(const GatedSample& sample);
+  void Feed(const GatedSample& sample, bool mag_valid);
+  void AdoptField(const Eigen::Vector3d& mag_in_earth_tesla);
+  void Report(const GatedSample& sample);
+
+  BoundedMotionCore<Scalar> core_;
+  std::string_view name_;
+  State state_;
+};
+
+extern template class BoundedMotionFilter<double>;
+extern template class BoundedMotionFilter<float>;
+
+/// A BoundedMotionFilter in the precision that `config` asks for.
+[[nodiscard]] std::unique_ptr<OrientationFilter> MakeBoundedMotionFilter(
+    const BoundedMotionConfig& config, std::string_view name);
+
+}  // namespace limbcast::filters
