@@ -109,6 +109,9 @@ struct Codec {
   /// The same for the key fields alone, as dispose messages carry them (at most 24 bytes).
   [[nodiscard]] static std::size_t SerializeKey(const Wire& wire, std::span<char> out);
   [[nodiscard]] static bool DeserializeKey(std::span<const char> bytes, Wire& wire);
+  /// Only the key fields of a whole sample (they come first in every type); false when it is too
+  /// short for them.
+  [[nodiscard]] static bool DeserializeLeadingKey(std::span<const char> bytes, Wire& wire);
 
   /// The key fields as DDS hashes them: big-endian CDR without header, padded with zeros (no key is
   /// longer than 16 bytes, so it is never an MD5).

@@ -6,6 +6,7 @@
 #include <fastcdr/FastBuffer.h>
 
 #include <exception>
+#include <optional>
 
 #include "common/bus/wire/codec.hpp"
 #include "common/bus/wire/fields.hpp"
@@ -82,12 +83,12 @@ void Codec<T>::KeyDeserialize(eprosima::fastcdr::Cdr& cdr, Wire& wire) {
 
 inline constexpr std::size_t kEncapsulation_bytes = 4;
 
-/// Runs `read(cdr)` over encapsulated CDR. False when the header is not XCDR1, when it throws, or
-/// when more than padding is left.
+/// Runs `read(cdr)` over encapsulated CDR. Nothing when the header is not XCDR1 or it throws, else
+/// how many bytes are left.
 template <typename Read>
-bool ReadEncapsulated(std::span<const char> bytes, Read read) {
+std::optional<std::size_t> ReadEncapsulated(std::span<const char> bytes, Read read) {
   if (bytes.size() < kEncapsulation_bytes || bytes[0] != 0 || (bytes[1] != 0 && bytes[1] != 1)) {
-    return false;
+    return std::nullopt;
   }
   try {
     // Fast CDR has no read-only buffer; reading does not write.
@@ -96,11 +97,14 @@ bool ReadEncapsulated(std::span<const char> bytes, Read read) {
                                eprosima::fastcdr::Cdr::DDS_CDR);
     cdr.read_encapsulation();
     read(cdr);
-    return bytes.size() - cdr.getSerializedDataLength() < 4;
+    return bytes.size() - cdr.getSerializedDataLength();
   } catch (const std::exception&) {
-    return false;
+    return std::nullopt;
   }
 }
+
+/// Up to 3 bytes of padding may follow; more means another type.
+inline bool OnlyPaddingIn(std::optional<std::size_t> left) { return left && *left < 4; }
 
 template <typename Write>
 std::size_t WriteEncapsulated(std::span<char> out, Write write) {
@@ -129,15 +133,15 @@ std::size_t Codec<T>::Serialize(const Wire& wire, std::span<char> out) {
 template <typename T>
 bool Codec<T>::Deserialize(std::span<const char> bytes, Wire& wire) {
   std::size_t used = 0;
-  const bool read = ReadEncapsulated(bytes, [&](eprosima::fastcdr::Cdr& cdr) {
+  const auto left = ReadEncapsulated(bytes, [&](eprosima::fastcdr::Cdr& cdr) {
     wire.deserialize(cdr);
     used = cdr.getSerializedDataLength();
   });
   if constexpr (WireType<T>::kHasText) {
     // The generated code cuts long texts silently. Then the value is shorter than its bytes.
-    return read && SerializedSize(wire) == used;
+    return OnlyPaddingIn(left) && SerializedSize(wire) == used;
   }
-  return read;
+  return OnlyPaddingIn(left);
 }
 
 template <typename T>
@@ -147,7 +151,14 @@ std::size_t Codec<T>::SerializeKey(const Wire& wire, std::span<char> out) {
 
 template <typename T>
 bool Codec<T>::DeserializeKey(std::span<const char> bytes, Wire& wire) {
-  return ReadEncapsulated(bytes, [&](eprosima::fastcdr::Cdr& cdr) { KeyDeserialize(cdr, wire); });
+  return OnlyPaddingIn(
+      ReadEncapsulated(bytes, [&](eprosima::fastcdr::Cdr& cdr) { KeyDeserialize(cdr, wire); }));
+}
+
+template <typename T>
+bool Codec<T>::DeserializeLeadingKey(std::span<const char> bytes, Wire& wire) {
+  return ReadEncapsulated(bytes, [&](eprosima::fastcdr::Cdr& cdr) { KeyDeserialize(cdr, wire); })
+      .has_value();
 }
 
 template <typename T>
