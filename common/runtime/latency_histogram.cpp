@@ -37,8 +37,25 @@ void LatencyHistogram::Record(Duration latency) {
   }
 }
 
+namespace {
+
+// The first bucket that has at least the fraction q of all at or below it.
+template <typename Counts>
+std::size_t QuantileBucket(const Counts& counts, std::uint64_t total, double q) {
+  const auto wanted = static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(total)));
+  std::uint64_t seen = 0;
+  std::size_t bucket = 0;
+  while (bucket + 1 < counts.size() && (seen += counts[bucket]) < wanted) {
+    ++bucket;
+  }
+  return bucket;
+}
+
+constexpr double kNanosecondsPerMicrosecond = 1e3;
+
+}  // namespace
+
 LatencyQuantiles LatencyHistogram::Take(std::string stage) {
-  constexpr double kNanosecondsPerMicrosecond = 1e3;
   std::array<std::uint32_t, kBuckets> taken;  // NOLINT: every element is written below
   std::uint64_t total = 0;
   for (std::size_t i = 0; i < kBuckets; ++i) {
@@ -47,17 +64,9 @@ LatencyQuantiles LatencyHistogram::Take(std::string stage) {
   }
   const double max_ns = static_cast<double>(max_ns_.exchange(0, std::memory_order_relaxed));
 
-  // The smallest bucket that has at least the fraction q of all at or below it.
   const auto quantile_us = [&](double q) {
-    const auto wanted = static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(total)));
-    std::uint64_t seen = 0;
-    for (std::size_t i = 0; i < kBuckets; ++i) {
-      seen += taken[i];
-      if (seen >= wanted) {
-        return static_cast<float>(std::min(MiddleOf_ns(i), max_ns) / kNanosecondsPerMicrosecond);
-      }
-    }
-    return 0.0F;
+    const double ns = std::min(MiddleOf_ns(QuantileBucket(taken, total, q)), max_ns);
+    return static_cast<float>(ns / kNanosecondsPerMicrosecond);
   };
 
   LatencyQuantiles result;
@@ -69,6 +78,21 @@ LatencyQuantiles LatencyHistogram::Take(std::string stage) {
     result.max_us = static_cast<float>(max_ns / kNanosecondsPerMicrosecond);
   }
   return result;
+}
+
+double LatencyHistogram::Quantile_us(double fraction) const {
+  std::array<std::uint32_t, kBuckets> counts;  // NOLINT: every element is written below
+  std::uint64_t total = 0;
+  for (std::size_t i = 0; i < kBuckets; ++i) {
+    counts[i] = counts_[i].load(std::memory_order_relaxed);
+    total += counts[i];
+  }
+  if (total == 0) {
+    return 0.0;
+  }
+  const double max_ns = static_cast<double>(max_ns_.load(std::memory_order_relaxed));
+  return std::min(MiddleOf_ns(QuantileBucket(counts, total, fraction)), max_ns) /
+         kNanosecondsPerMicrosecond;
 }
 
 std::uint64_t LatencyHistogram::count() const {

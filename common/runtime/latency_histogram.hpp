@@ -23,6 +23,10 @@ class LatencyHistogram {
   /// fall into this or the next period, none is lost. One taking thread.
   [[nodiscard]] LatencyQuantiles Take(std::string stage);
 
+  /// What the fraction `fraction` (0 to 1) of all records since the last Take is at or below [µs];
+  /// 0 when there is none.
+  [[nodiscard]] double Quantile_us(double fraction) const;
+
   [[nodiscard]] std::uint64_t count() const;
 
  private:

@@ -46,6 +46,7 @@ TEST(LatencyHistogramTest, QuantilesOfALongTailAreThoseOfTheSortedValues) {
     histogram.Record(Duration{values.back()});
   }
   std::sort(values.begin(), values.end());
+  const double p999_us = histogram.Quantile_us(0.999);
   const LatencyQuantiles quantiles = histogram.Take("tail");
   const auto sorted_us = [&](std::size_t rank) {
     return static_cast<float>(values[rank - 1]) / 1e3F;
@@ -53,6 +54,8 @@ TEST(LatencyHistogramTest, QuantilesOfALongTailAreThoseOfTheSortedValues) {
   EXPECT_EQ(quantiles.count, 10'000U);
   EXPECT_NEAR(quantiles.p50_us, sorted_us(5'000), sorted_us(5'000) * kRelativeError);
   EXPECT_NEAR(quantiles.p99_us, sorted_us(9'900), sorted_us(9'900) * kRelativeError);
+  EXPECT_NEAR(p999_us, sorted_us(9'990), sorted_us(9'990) * kRelativeError);
+  EXPECT_EQ(histogram.Quantile_us(0.5), 0.0) << "nothing is left after Take";
   EXPECT_FLOAT_EQ(quantiles.max_us, sorted_us(10'000));
 }
 

@@ -1,0 +1,30 @@
+#include <array>
+#include <optional>
+
+#include "common/service/service_command_line.hpp"
+#include "tools/limbcast/echo_command.hpp"
+#include "tools/limbcast/sub_command.hpp"
+
+int main(int argc, char** argv) {
+  using namespace limbcast;
+
+  service::ServiceCommandLine line("limbcast", "Look at a running pipeline, or run one.",
+                                   "  limbcast demo --seconds 20\n"
+                                   "  limbcast top --domain 7\n"
+                                   "  limbcast echo skeleton --count 1\n");
+  line.app().require_subcommand(1);
+  line.app().fallthrough();
+  const std::array commands = {
+      tool::AddEchoCommand(line),
+  };
+  if (const std::optional<int> status = line.Parse(argc, argv)) {
+    return *status;
+  }
+  line.StartLog();
+  for (const tool::SubCommand& command : commands) {
+    if (command.app->parsed()) {
+      return command.run();
+    }
+  }
+  return 2;
+}
