@@ -1,0 +1,105 @@
+#include "services/fusion/fusion_config.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace limbcast::fusion {
+
+namespace {
+
+constexpr std::size_t kMaxFilterNameLength = 16;  // bound of the wire type
+constexpr double kMinFuture_s = 0.001;
+constexpr double kMaxFuture_s = 1e9;
+
+FilterChoice ReadChoice(const config::Section& section, FilterChoice choice) {
+  choice.name = section.Read("name", choice.name, kMaxFilterNameLength);
+  choice.beside = section.Read("beside", choice.beside, kMaxFilterNameLength);
+  return choice;
+}
+
+Status CheckFilter(const FilterFactory& factory, const std::string& name, const std::string& key) {
+  if (const auto filter = factory(name); !filter) {
+    return Error{filter.error().code, fmt::format("{}: {}", key, filter.error().message)};
+  }
+  return Ok();
+}
+
+Status CheckChoice(const FilterFactory& factory, const FilterChoice& choice,
+                   const std::string& key) {
+  if (Status made = CheckFilter(factory, choice.name, key + ".name"); !made) {
+    return made;
+  }
+  return choice.beside.empty() ? Ok() : CheckFilter(factory, choice.beside, key + ".beside");
+}
+
+}  // namespace
+
+FusionConfig ReadFusionConfig(const config::ConfigFile& file) {
+  FusionConfig config;
+  const config::Section fusion = file.Get("fusion");
+  config.workers = fusion.Read("workers", config.workers, 1, 64);
+  config.queue_capacity = fusion.Read("queue_capacity", config.queue_capacity, 64, 1U << 20U);
+  config.max_future_s =
+      fusion.Read("max_future_s", config.max_future_s, kMinFuture_s, kMaxFuture_s);
+
+  const config::Section filter = file.Get("filter");
+  config.filter = ReadChoice(filter, config.filter);
+  const config::Section segments = filter.Get("segment");
+  for (const std::string& name : segments.Keys()) {
+    const config::Section section = segments.Get(name);
+    if (const auto segment = body::ParseSegment(name)) {
+      config.segment_filters[*segment] = ReadChoice(section, config.filter);
+    } else {
+      segments.Fail(name, "is not a segment; those are pelvis, l5, ..., see common/body/README.md");
+    }
+  }
+  const config::Section settings = filter.Get("settings");
+  for (const std::string& name : settings.Keys()) {
+    const config::Section section = settings.Get(name);
+    for (const std::string& key : section.Keys()) {
+      config.filter_settings[name].emplace_back(key, section.ReadAnyAsText(key));
+    }
+    if (const auto made = filters::MakeFilter(name, config.filter_settings[name]); !made) {
+      settings.Fail(name, made.error().message);
+    }
+  }
+  return config;
+}
+
+FilterFactory MakeFilterFactory(const FusionConfig& config) {
+  return [settings = config.filter_settings](std::string_view name) {
+    const auto found = settings.find(name);
+    return found == settings.end() ? filters::MakeFilter(name)
+                                   : filters::MakeFilter(name, found->second);
+  };
+}
+
+Status Validate(const FusionConfig& config, const FilterFactory& factory) {
+  const auto refuse = [](std::string message) {
+    return Status(Error{ErrorCode::kInvalidArgument, std::move(message)});
+  };
+  if (config.workers < 1 || config.workers > 64) {
+    return refuse(fmt::format("fusion.workers must be in [1, 64], is {}", config.workers));
+  }
+  if (config.queue_capacity < 64 || config.queue_capacity > (1U << 20U)) {
+    return refuse(fmt::format("fusion.queue_capacity must be in [64, 1048576], is {}",
+                              config.queue_capacity));
+  }
+  if (!(config.max_future_s >= kMinFuture_s && config.max_future_s <= kMaxFuture_s)) {
+    return refuse(
+        fmt::format("fusion.max_future_s must be in [0.001, 1e9], is {}", config.max_future_s));
+  }
+  if (Status made = CheckChoice(factory, config.filter, "filter"); !made) {
+    return made;
+  }
+  for (const auto& [segment, choice] : config.segment_filters) {
+    const std::string key = fmt::format("filter.segment.{}", body::ToString(segment));
+    if (Status made = CheckChoice(factory, choice, key); !made) {
+      return made;
+    }
+  }
+  return Ok();
+}
+
+}  // namespace limbcast::fusion

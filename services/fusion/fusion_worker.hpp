@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <variant>
+
+#include "common/base/clock.hpp"
+#include "common/base/ids.hpp"
+#include "common/bus/writer.hpp"
+#include "common/runtime/bounded_queue.hpp"
+#include "common/runtime/latency_histogram.hpp"
+#include "services/fusion/fusion_config.hpp"
+#include "services/fusion/fusion_counters.hpp"
+#include "services/fusion/router.hpp"
+#include "services/fusion/sensor_track.hpp"
+
+namespace limbcast::fusion {
+
+/// Latencies of all workers, by stage. Thread-safe.
+struct FusionLatencies {
+  runtime::LatencyHistogram gateway_to_fusion;  ///< published by the gateway → received here
+  runtime::LatencyHistogram queue;              ///< received here → a worker takes it
+  runtime::LatencyHistogram step;               ///< a worker takes it → ready to publish
+  runtime::LatencyHistogram fusion;             ///< received here → ready to publish
+};
+
+/// One shard: a queue, and the sensors of the bodies that belong to it. Offer from any thread,
+/// Drain from one. Nothing else touches its sensors, so a filter step holds no lock.
+class FusionWorker {
+ public:
+  using Work =
+      std::variant<sensing::MargSample, sensing::FusedOrientation, std::shared_ptr<const BodyPlan>>;
+
+  /// What is referred to outlives it.
+  FusionWorker(const FusionConfig& config, const FilterFactory& factory, const Clock& clock,
+               bus::Writer<body::SegmentState>& writer, FusionLatencies& latencies);
+
+  /// Queues a sample. False: the queue is full. (Some places are kept for plans.)
+  [[nodiscard]] bool Offer(const sensing::MargSample& sample, const Reception& reception) {
+    return queue_.TryPush({reception, sample}, kKeptForPlans);
+  }
+  [[nodiscard]] bool Offer(const sensing::FusedOrientation& orientation,
+                           const Reception& reception) {
+    return queue_.TryPush({reception, orientation}, kKeptForPlans);
+  }
+  /// Queues a change of who is who, in order with the samples. False: even the kept places are
+  /// full.
+  [[nodiscard]] bool Offer(std::shared_ptr<const BodyPlan> plan) {
+    return queue_.TryPush({{}, std::move(plan)});
+  }
+
+  /// Filters and publishes everything that is queued.
+  void Drain();
+
+  [[nodiscard]] const CounterCells& counters() const { return counters_; }
+
+ private:
+  struct Item {
+    Reception reception;
+    Work work;
+  };
+  static constexpr std::size_t kKeptForPlans = 32;
+  static constexpr std::size_t kFlushEvery = 32;  // samples, when the queue never gets empty
+
+  void Handle(const sensing::MargSample& sample, const Reception& reception);
+  void Handle(const sensing::FusedOrientation& orientation, const Reception& reception);
+  void Handle(const std::shared_ptr<const BodyPlan>& plan, const Reception& reception);
+  template <typename Sample>
+  void HandleSample(const Sample& sample, const Reception& reception);
+  void DisposeAbsent(BodyId body_id, const BodyPlan& plan);
+
+  struct Tracked {
+    Tracked(BodyId body, const TrackPlan& plan, const FilterFactory& factory, Duration max_future)
+        : body_id(body), track(body, plan, factory, max_future) {}
+    BodyId body_id;
+    SensorTrack track;
+  };
+
+  const FilterFactory& factory_;
+  const Clock& clock_;
+  bus::Writer<body::SegmentState>& writer_;
+  FusionLatencies& latencies_;
+  const Duration max_future_;
+  runtime::BoundedQueue<Item> queue_;
+  Item item_;  // the one in work
+  std::unordered_map<SensorUid, Tracked> tracks_;
+  CounterCells counters_;
+};
+
+}  // namespace limbcast::fusion

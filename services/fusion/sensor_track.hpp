@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "common/base/time.hpp"
+#include "common/base/verdict.hpp"
+#include "common/body/segment_state.hpp"
+#include "common/filters/filter.hpp"
+#include "common/sensing/fused_orientation.hpp"
+#include "common/sensing/marg_sample.hpp"
+#include "services/fusion/fusion_config.hpp"
+#include "services/fusion/router.hpp"
+#include "services/fusion/sequence_tracker.hpp"
+
+namespace limbcast::fusion {
+
+/// When and behind what a sample came; what the intake knows and the sample does not.
+struct Reception {
+  Time received_at{};
+  std::uint64_t overloads = 0;  ///< refused samples of this sensor before this one
+};
+
+/// One sensor on one segment: its numbers, its filters, its counters. Each sample gives one state
+/// (two with a filter beside it), used or refused. Thread-compatible; allocates only in Apply.
+class SensorTrack {
+ public:
+  /// States of one sample, slot 0 first; valid until the next call. `lost` is the change of
+  /// lost_count by this sample.
+  struct Output {
+    std::span<body::SegmentState> states;
+    SampleVerdict verdict = SampleVerdict::kNoData;
+    bool probe = false;
+    std::int64_t lost = 0;
+  };
+
+  SensorTrack(BodyId body_id, const TrackPlan& plan, const FilterFactory& factory,
+              Duration max_future);
+
+  /// A new plan for the same sensor and body. A filter that is replaced goes on until the new one,
+  /// started from the measurements, has an orientation; if the new one ran beside it, it takes over
+  /// at once.
+  void Apply(const TrackPlan& plan, const FilterFactory& factory);
+
+  [[nodiscard]] Output Update(const sensing::MargSample& sample, const Reception& reception);
+
+  /// A sensor with a filter on board: its orientation passes through as filter "onboard", as slot
+  /// 0, or as slot 1 when the sensor's raw samples are filtered here too (no state when slot 1 is
+  /// taken by a filter beside).
+  [[nodiscard]] Output Update(const sensing::FusedOrientation& orientation,
+                              const Reception& reception);
+
+  [[nodiscard]] body::Segment segment() const { return plan_.segment; }
+  [[nodiscard]] bool has_beside() const { return beside_ != nullptr; }
+
+ private:
+  using FilterPtr = std::unique_ptr<filters::OrientationFilter>;
+
+  // What is counted for one stream of numbered samples.
+  struct Source {
+    SequenceTracker sequence;
+    VerdictCounters verdicts;
+    std::int64_t lost = 0;
+  };
+
+  SequenceTracker::Arrival Arrive(Source& source, std::uint32_t sequence, Time measured_at,
+                                  const Reception& reception, std::int64_t& lost);
+  [[nodiscard]] SampleVerdict CheckTime(Time measured_at, const Reception& reception) const;
+  [[nodiscard]] SampleVerdict CheckOrder(Time measured_at);
+  void TakeIncoming();
+  void Start(body::SegmentState& state, std::uint32_t sequence, Time measured_at,
+             Time gateway_published_at, const Reception& reception) const;
+  static void Fill(body::SegmentState& state, const filters::OrientationFilter& filter);
+  static void Count(body::SegmentState& state, const Source& source, SampleVerdict verdict);
+
+  const BodyId body_id_;
+  const Duration max_future_;
+  TrackPlan plan_;
+  FilterPtr filter_;
+  FilterPtr incoming_;  // takes the place of filter_ as soon as it has an orientation
+  FilterPtr beside_;
+  Source marg_;
+  Source onboard_;
+  std::optional<Time> onboard_used_at_;
+  std::uint32_t onboard_old_run_ = 0;
+  std::uint64_t overloads_seen_;
+  bool marg_seen_ = false;
+  std::array<body::SegmentState, 2> states_;
+};
+
+}  // namespace limbcast::fusion
