@@ -1,0 +1,204 @@
+#include "services/posture/alignment_store.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+#include "common/body/default_body.hpp"
+#include "common/config/config_file.hpp"
+
+namespace limbcast::posture {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kVersion = 1;
+constexpr double kMaxOffset_m = 2.0;
+
+std::string Vector(const Eigen::Vector3d& v) {
+  return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z());
+}
+
+std::string Write(const body::BodyDefinition& definition) {
+  std::string text = fmt::format(
+      "# Alignment and dimensions of one body, written by limbcast-posture. q is w x y z.\n"
+      "version = {}\nbody_id = {}\nrevision = {}\n",
+      kVersion, definition.body_id.value, definition.revision);
+  for (const body::SegmentDefinition& segment : definition.segments) {
+    const Eigen::Quaterniond& q = segment.q_sensor_segment;
+    text += fmt::format(
+        "\n[{}]\nsensor_uid = \"{:016x}\"\naligned = {}\nq_sensor_segment = [{}, {}, {}, {}]\n"
+        "heading_correction_rad = {}\np_parent_segment_m = {}\np_segment_end_m = {}\n",
+        body::ToString(segment.segment), segment.sensor_uid.value, segment.aligned, q.w(), q.x(),
+        q.y(), q.z(), segment.heading_correction_rad, Vector(segment.p_parent_segment_m),
+        Vector(segment.p_segment_end_m));
+  }
+  // Read back to know that nothing is cut off.
+  return text + fmt::format("\n[end]\nsegments = {}\n", definition.segments.size());
+}
+
+Eigen::Vector3d ReadVector(const config::Section& section, const char* key) {
+  const std::vector<double> v =
+      section.ReadNumbers(key, {0.0, 0.0, 0.0}, -kMaxOffset_m, kMaxOffset_m, 3);
+  return v.size() == 3 ? Eigen::Vector3d(v[0], v[1], v[2]) : Eigen::Vector3d::Zero();
+}
+
+void ReadSegment(const config::Section& section, body::SegmentDefinition& segment) {
+  const std::string uid = section.Read("sensor_uid", "", 16);
+  const auto parsed =
+      std::from_chars(uid.data(), uid.data() + uid.size(), segment.sensor_uid.value, 16);
+  if (uid.size() != 16 || parsed.ptr != uid.data() + uid.size()) {
+    section.Fail("sensor_uid", fmt::format("must be 16 hexadecimal digits, is \"{}\"", uid));
+  }
+  segment.aligned = section.Read("aligned", false);
+  const std::vector<double> q = section.ReadNumbers("q_sensor_segment", {1, 0, 0, 0}, -1.0, 1.0, 4);
+  if (q.size() == 4) {
+    segment.q_sensor_segment = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  }
+  if (!(std::abs(segment.q_sensor_segment.norm() - 1.0) < 1e-6)) {
+    section.Fail("q_sensor_segment", "must be of unit length");
+  }
+  segment.heading_correction_rad = section.Read("heading_correction_rad", 0.0, -3.15, 3.15);
+  segment.p_parent_segment_m = ReadVector(section, "p_parent_segment_m");
+  segment.p_segment_end_m = ReadVector(section, "p_segment_end_m");
+}
+
+/// Everything to disk, or an error that names the file.
+Status WriteFile(const fs::path& path, const std::string& text) {
+  const auto fail = [&](const char* what) {
+    return Error{ErrorCode::kUnavailable,
+                 fmt::format("{} {}: {}", what, path.string(), std::strerror(errno))};
+  };
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file < 0) {
+    return fail("open");
+  }
+  Status status = Ok();
+  std::size_t written = 0;
+  while (status.ok() && written < text.size()) {
+    const ssize_t n = ::write(file, text.data() + written, text.size() - written);
+    if (n < 0 && errno == EINTR) {
+      continue;
+    }
+    if (n < 0) {
+      status = fail("write");
+    } else {
+      written += static_cast<std::size_t>(n);
+    }
+  }
+  if (status.ok() && ::fsync(file) != 0) {
+    status = fail("sync");
+  }
+  ::close(file);
+  return status;
+}
+
+}  // namespace
+
+fs::path AlignmentStore::PathOf(BodyId body_id) const {
+  return folder_ / fmt::format("body_{}.toml", body_id.value);
+}
+
+Status AlignmentStore::Prepare() const {
+  if (folder_.empty()) {
+    return Ok();
+  }
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (!fs::is_directory(folder_) || ::access(folder_.c_str(), W_OK | X_OK) != 0) {
+    return Error{ErrorCode::kUnavailable,
+                 fmt::format("posture.state_dir must be a writable folder, is \"{}\" ({})",
+                             folder_.string(), error ? error.message() : std::strerror(errno))};
+  }
+  return Ok();
+}
+
+Status AlignmentStore::Save(const body::BodyDefinition& definition) const {
+  if (folder_.empty()) {
+    return Ok();
+  }
+  const fs::path path = PathOf(definition.body_id);
+  std::error_code error;
+  if (fs::exists(path, error)) {
+    body::BodyDefinition scratch = definition;
+    if (!Load(scratch)) {
+      fs::rename(path, path.string() + ".refused", error);
+    }
+  }
+  const fs::path temporary = path.string() + ".new";
+  if (const Status written = WriteFile(temporary, Write(definition)); !written) {
+    return written;
+  }
+  fs::rename(temporary, path, error);
+  if (error) {
+    return Error{ErrorCode::kUnavailable,
+                 fmt::format("rename to {}: {}", path.string(), error.message())};
+  }
+  return Ok();
+}
+
+Result<bool> AlignmentStore::Load(body::BodyDefinition& definition) const {
+  const fs::path path = PathOf(definition.body_id);
+  std::error_code error;
+  if (folder_.empty() || !fs::exists(path, error)) {
+    return false;
+  }
+  const auto file = config::ConfigFile::Load(path);
+  if (!file) {
+    return Error{ErrorCode::kCorruptData, file.error().message};
+  }
+  const config::Section root = file->Root();
+  if (!root.Has("end")) {
+    return Error{ErrorCode::kCorruptData,
+                 fmt::format("{}: cut off, [end] is missing", path.string())};
+  }
+  (void)root.Read("version", 0, kVersion, kVersion);
+  if (root.Read("body_id", definition.body_id.value, 0U, UINT32_MAX) != definition.body_id.value) {
+    root.Fail("body_id", fmt::format("must be {}", definition.body_id.value));
+  }
+  body::BodyDefinition loaded = definition;
+  loaded.revision = std::max(loaded.revision, root.Read("revision", 0U, 0U, UINT32_MAX - 1U));
+  std::size_t count = 0;
+  for (const body::Segment segment : body::AllSegments()) {
+    const std::string name(body::ToString(segment));
+    if (!root.Has(name)) {
+      continue;
+    }
+    ++count;
+    body::SegmentDefinition read;
+    ReadSegment(root.Get(name), read);
+    for (body::SegmentDefinition& into : loaded.segments) {
+      if (into.segment == segment) {
+        into.sensor_uid = read.sensor_uid;
+        into.aligned = read.aligned;
+        into.q_sensor_segment = read.q_sensor_segment;
+        into.heading_correction_rad = read.heading_correction_rad;
+        into.p_parent_segment_m = read.p_parent_segment_m;
+        into.p_segment_end_m = read.p_segment_end_m;
+      }
+    }
+  }
+  const config::Section end = root.Get("end");
+  if (end.Read("segments", std::size_t{0}, 0U, 32U) != count) {
+    end.Fail("segments", fmt::format("must be {}, the number of segments in the file", count));
+  }
+  if (const Status read = file->Finish(); !read) {
+    return Error{ErrorCode::kCorruptData, read.error().message};
+  }
+  if (const Status valid = body::Validate(loaded); !valid) {
+    return Error{ErrorCode::kCorruptData,
+                 fmt::format("{}: {}", path.string(), valid.error().message)};
+  }
+  definition = std::move(loaded);
+  return true;
+}
+
+}  // namespace limbcast::posture

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+
+#include "common/base/result.hpp"
+#include "common/body/body_definition.hpp"
+
+namespace limbcast::posture {
+
+/// Keeps alignment and dimensions of each body in one small TOML file, so that a restart of the
+/// service asks nobody to stand in the reference pose again. Thread-compatible; one body's file is
+/// used by one thread at a time.
+class AlignmentStore {
+ public:
+  /// An empty folder name: nothing is kept.
+  explicit AlignmentStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Makes the folder and tries to write into it.
+  [[nodiscard]] Status Prepare() const;
+
+  /// `<folder>/body_<id>.toml`.
+  [[nodiscard]] std::filesystem::path PathOf(BodyId body_id) const;
+
+  /// Replaces the file as a whole (temporary file, fsync, rename): a crash leaves the old or the
+  /// new one. A file that is there and cannot be read is set aside as `<name>.refused` first.
+  [[nodiscard]] Status Save(const body::BodyDefinition& definition) const;
+
+  /// Puts what was saved over `definition` (dimensions, sensors, offsets, revision); segments that
+  /// only one of the two has are left alone. False: nothing was saved for this body. Fails
+  /// (kCorruptData, kUnavailable) for a file that is cut off, of another version or body, or holds
+  /// a value that cannot be; `definition` is unchanged then.
+  [[nodiscard]] Result<bool> Load(body::BodyDefinition& definition) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace limbcast::posture

@@ -1,0 +1,75 @@
+#include "services/posture/posture_config.hpp"
+
+#include <fmt/format.h>
+
+namespace limbcast::posture {
+namespace {
+
+constexpr std::size_t kMaxPathLength = 4096;
+
+Status InRange(const char* key, double value, double low, double high) {
+  if (value >= low && value <= high) {
+    return Ok();
+  }
+  return Error{ErrorCode::kInvalidArgument,
+               fmt::format("posture.{} must be in [{}, {}], is {}", key, low, high, value)};
+}
+
+}  // namespace
+
+Status Validate(const PostureConfig& config) {
+  for (const Status& status :
+       {InRange("workers", config.workers, 1, 64),
+        InRange("tick_deadline_s", config.tick_deadline_s, 0.0005, 1.0),
+        InRange("output_rate_hz", config.output_rate_hz, 0.0, 1000.0),
+        InRange("max_extrapolation_s", config.max_extrapolation_s, 0.0, 1.0),
+        InRange("missing_after_s", config.missing_after_s, 0.05, 600.0),
+        InRange("still_window_s", config.still_window_s, 0.05, 2.0),
+        InRange("still_limit_rad", config.still_limit_rad, 1e-6, 1.0),
+        InRange("body_height_m", config.body_height_m, body::kMinBodyHeight_m,
+                body::kMaxBodyHeight_m),
+        InRange("joint_softness_rad", config.joint_softness_rad, 0.001, 1.0)}) {
+    if (!status) {
+      return status;
+    }
+  }
+  if (config.output_rate_hz != 0.0) {
+    return InRange("output_rate_hz", config.output_rate_hz, 1.0, 1000.0);
+  }
+  return Ok();
+}
+
+PostureConfig ReadPostureConfig(const config::Section& section) {
+  PostureConfig config;
+  config.workers = section.Read("workers", config.workers, 1U, 64U);
+  config.tick_deadline_s = section.Read("tick_deadline_s", config.tick_deadline_s, 0.0005, 1.0);
+  config.output_rate_hz = section.Read("output_rate_hz", config.output_rate_hz, 0.0, 1000.0);
+  if (config.output_rate_hz != 0.0 && config.output_rate_hz < 1.0) {
+    section.Fail("output_rate_hz",
+                 fmt::format("must be 0 or in [1, 1000], is {}", config.output_rate_hz));
+    config.output_rate_hz = 0.0;
+  }
+  config.max_extrapolation_s =
+      section.Read("max_extrapolation_s", config.max_extrapolation_s, 0.0, 1.0);
+  config.missing_after_s = section.Read("missing_after_s", config.missing_after_s, 0.05, 600.0);
+  config.still_window_s = section.Read("still_window_s", config.still_window_s, 0.05, 2.0);
+  config.still_limit_rad = section.Read("still_limit_rad", config.still_limit_rad, 1e-6, 1.0);
+  config.body_height_m = section.Read("body_height_m", config.body_height_m, body::kMinBodyHeight_m,
+                                      body::kMaxBodyHeight_m);
+  for (const std::string& name : section.Read("segments", std::vector<std::string>())) {
+    if (const auto segment = body::ParseSegment(name)) {
+      config.segments.push_back(*segment);
+    } else {
+      section.Fail("segments", fmt::format("must name segments (\"pelvis\", \"t8\", "
+                                           "\"left_upper_arm\", ...), has \"{}\"",
+                                           name));
+    }
+  }
+  config.joint_limits = section.Read("joint_limits", config.joint_limits);
+  config.joint_softness_rad =
+      section.Read("joint_softness_rad", config.joint_softness_rad, 0.001, 1.0);
+  config.state_dir = section.Read("state_dir", config.state_dir, kMaxPathLength);
+  return config;
+}
+
+}  // namespace limbcast::posture

@@ -1,0 +1,205 @@
+#include "services/posture/posture_worker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "common/base/expects.hpp"
+#include "common/body/default_body.hpp"
+
+namespace limbcast::posture {
+namespace {
+
+Count CountOf(StateFate fate) {
+  switch (fate) {
+    case StateFate::kUsed:
+      return Count::kStatesUsed;
+    case StateFate::kLate:
+      return Count::kStatesLate;
+    case StateFate::kIgnored:
+      return Count::kStatesIgnored;
+    case StateFate::kUnassigned:
+      break;
+  }
+  return Count::kStatesUnassigned;
+}
+
+}  // namespace
+
+PostureWorker::PostureWorker(const PostureShared& shared)
+    : shared_(shared), queue_(kQueueCapacity) {}
+
+std::optional<Time> PostureWorker::Drain() {
+  while (queue_.TryPop(item_)) {
+    std::visit([this](const auto& work) { Handle(work); }, item_);
+  }
+  if (earliest_due_) {
+    const Time now = shared_.clock.Now();
+    if (*earliest_due_ <= now) {
+      EmitDue(now);
+    }
+  }
+  if (std::exchange(to_flush_, false)) {
+    shared_.skeletons.Flush();
+  }
+  return earliest_due_;
+}
+
+void PostureWorker::EmitDue(Time now) {
+  earliest_due_.reset();
+  for (auto& [body_id, body] : bodies_) {
+    body.tracker->OnDue(now);
+    if (const auto due = body.tracker->due()) {
+      earliest_due_ = std::min(earliest_due_.value_or(*due), *due);
+    }
+  }
+}
+
+PostureWorker::Body* PostureWorker::Find(BodyId body_id) {
+  const auto found = bodies_.find(body_id);
+  return found == bodies_.end() ? nullptr : &found->second;
+}
+
+PostureWorker::Body& PostureWorker::MakeBody(BodyId body_id) {
+  auto made = body::MakeDefaultBody(body_id, shared_.config.body_height_m);
+  Expects(made.ok(), "a validated body height");
+  body::BodyDefinition definition = std::move(*made);
+  if (!shared_.config.segments.empty()) {
+    definition = body::KeepSegments(definition, shared_.config.segments);
+  }
+  if (const auto loaded = shared_.store.Load(definition); !loaded) {
+    shared_.on_error("saved alignment refused: " + loaded.error().message);
+  }
+  Body& body = bodies_.try_emplace(body_id, shared_.config).first->second;
+  body.tracker = std::make_unique<BodyTracker>(
+      shared_.config, std::move(definition),
+      [this](body::Skeleton& skeleton, TickEnd end, bool live) { Publish(skeleton, end, live); });
+  return body;
+}
+
+void PostureWorker::Handle(const StateInput& state) {
+  Body* body = Find(state.body_id);
+  if (body == nullptr) {
+    shared_.counters.Add(Count::kStatesUnassigned);
+    return;
+  }
+  BodyTracker& tracker = *body->tracker;
+  shared_.counters.Add(CountOf(tracker.OnState(state, state.stages.posture_received_at)));
+  if (const auto due = tracker.due()) {
+    earliest_due_ = std::min(earliest_due_.value_or(*due), *due);
+  }
+  if (tracker.TakeDefinitionChanged()) {
+    PublishDefinition(*body);
+  }
+}
+
+void PostureWorker::Handle(const sensing::PositionFix& fix) {
+  if (Body* body = Find(fix.body_id); body != nullptr && fix.p_earth_body_m.allFinite()) {
+    body->tracker->OnPositionFix(fix.p_earth_body_m);
+  }
+}
+
+void PostureWorker::Handle(const std::shared_ptr<const roster::RosterEntry>& entry) {
+  Body* body = Find(entry->body_id);
+  if (body == nullptr) {
+    body = &MakeBody(entry->body_id);
+  }
+  const bool back = !std::exchange(body->present, true);
+  const bool changed = body->tracker->SetRoster(*entry);
+  if (body->tracker->TakeDefinitionChanged() || changed || back) {
+    PublishDefinition(*body);
+  }
+  CountBodies();
+}
+
+void PostureWorker::Handle(const Gone& gone) {
+  Body* body = Find(gone.body_id);
+  if (body == nullptr || !std::exchange(body->present, false)) {
+    return;
+  }
+  // The alignment stays, for the return of the same sensors.
+  const body::BodyDefinition& definition = body->tracker->definition();
+  roster::RosterEntry nobody;
+  nobody.body_id = gone.body_id;
+  nobody.person = definition.name;
+  (void)body->tracker->SetRoster(nobody);
+  (void)body->tracker->TakeDefinitionChanged();
+  body::Skeleton skeleton;
+  skeleton.body_id = gone.body_id;
+  Check(shared_.skeletons.Dispose(skeleton));
+  Check(shared_.definitions.Dispose(definition));
+  CountBodies();
+}
+
+void PostureWorker::Handle(const std::shared_ptr<const roster::Command>& command) {
+  Body* body = Find(command->body_id);
+  CommandOutcome outcome;
+  if (body == nullptr || !body->present) {
+    outcome.message = fmt::format("no body {} in the roster", command->body_id.value);
+  } else {
+    outcome = body->commands.Execute(*command, shared_.clock.Now(), *body->tracker);
+    if (body->tracker->TakeDefinitionChanged()) {
+      PublishDefinition(*body);
+    }
+    if (outcome.accepted) {
+      if (const Status saved = shared_.store.Save(body->tracker->definition()); !saved) {
+        shared_.on_error("alignment not saved: " + saved.error().message);
+        outcome.message += " (not saved to disk)";
+      }
+    }
+  }
+  shared_.counters.Add(outcome.accepted ? Count::kCommandsAccepted : Count::kCommandsRefused);
+  Check(shared_.replies.Write({.client_uid = command->client_uid,
+                               .request_id = command->request_id,
+                               .accepted = outcome.accepted,
+                               .message = outcome.message}));
+  shared_.replies.Flush();
+}
+
+void PostureWorker::Publish(body::Skeleton& skeleton, TickEnd end, bool live) {
+  skeleton.stages.posture_published_at = shared_.clock.Now();
+  const Status written = shared_.skeletons.Write(skeleton);
+  Check(written);
+  to_flush_ = true;
+  if (!live) {
+    shared_.counters.Add(Count::kProbes);
+    return;
+  }
+  const body::StageTimes& stages = skeleton.stages;
+  shared_.latencies.sensor_to_posture.Record(stages.posture_published_at - skeleton.measured_at);
+  shared_.latencies.fusion_to_posture.Record(stages.posture_received_at -
+                                             stages.fusion_published_at);
+  shared_.latencies.posture.Record(stages.posture_published_at - stages.posture_received_at);
+  shared_.counters.Add(Count::kSkeletons);
+  if (skeleton.complete) {
+    shared_.counters.Add(Count::kSkeletonsComplete);
+  }
+  if (end == TickEnd::kDeadline) {
+    shared_.counters.Add(Count::kSkeletonsDeadline);
+  } else if (end == TickEnd::kOvertaken) {
+    shared_.counters.Add(Count::kSkeletonsOvertaken);
+  }
+}
+
+void PostureWorker::PublishDefinition(Body& body) {
+  shared_.counters.Add(Count::kDefinitions);
+  Check(shared_.definitions.Write(body.tracker->definition()));
+  shared_.definitions.Flush();
+}
+
+void PostureWorker::CountBodies() {
+  body_count_.store(
+      static_cast<std::size_t>(std::count_if(
+          bodies_.begin(), bodies_.end(), [](const auto& entry) { return entry.second.present; })),
+      std::memory_order_relaxed);
+}
+
+void PostureWorker::Check(const Status& status) {
+  if (!status) {
+    shared_.counters.Add(Count::kPublishErrors);
+    shared_.on_error(status.error().message);
+  }
+}
+
+}  // namespace limbcast::posture

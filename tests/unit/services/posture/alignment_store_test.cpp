@@ -1,0 +1,153 @@
+#include "services/posture/alignment_store.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "common/body/default_body.hpp"
+#include "common/math/rotation.hpp"
+
+namespace limbcast::posture {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class AlignmentStoreTest : public ::testing::Test {
+ protected:
+  AlignmentStoreTest()
+      : folder_(fs::path(::testing::TempDir()) /
+                (std::string("alignment_") +
+                 ::testing::UnitTest::GetInstance()->current_test_info()->name())),
+        store_(folder_) {
+    fs::remove_all(folder_);
+    EXPECT_TRUE(store_.Prepare().ok());
+    aligned_ = *body::MakeDefaultBody(kBody, 1.9);
+    aligned_.revision = 7;
+    for (body::SegmentDefinition& segment : aligned_.segments) {
+      segment.sensor_uid = SensorUid{0xFEDCBA9876543210ULL + body::Index(segment.segment)};
+      segment.aligned = true;
+      segment.q_sensor_segment =
+          math::ExpSO3({0.1 * static_cast<double>(body::Index(segment.segment)), -0.7, 1.0 / 3.0});
+      segment.heading_correction_rad = -1.0 / 7.0;
+    }
+  }
+  ~AlignmentStoreTest() override { fs::remove_all(folder_); }
+
+  std::string Text() const {
+    std::ifstream file(store_.PathOf(kBody));
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void Overwrite(const std::string& text) const {
+    std::ofstream(store_.PathOf(kBody), std::ios::trunc) << text;
+  }
+  std::string Refusal() const {
+    body::BodyDefinition definition = *body::MakeDefaultBody(kBody);
+    const auto loaded = store_.Load(definition);
+    EXPECT_FALSE(definition.segments[0].aligned) << "unchanged";
+    return loaded.ok() ? std::string() : loaded.error().message;
+  }
+
+  static constexpr BodyId kBody{3};
+  const fs::path folder_;
+  const AlignmentStore store_;
+  body::BodyDefinition aligned_;
+};
+
+TEST_F(AlignmentStoreTest, WhatIsSavedComesBackToTheLastBit) {
+  ASSERT_TRUE(store_.Save(aligned_).ok());
+  body::BodyDefinition loaded = *body::MakeDefaultBody(kBody);
+  const auto found = store_.Load(loaded);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_TRUE(*found);
+  EXPECT_EQ(loaded.revision, 7U);
+  for (std::size_t i = 0; i < loaded.segments.size(); ++i) {
+    EXPECT_EQ(loaded.segments[i].sensor_uid, aligned_.segments[i].sensor_uid);
+    EXPECT_TRUE(loaded.segments[i].q_sensor_segment.coeffs() ==
+                aligned_.segments[i].q_sensor_segment.coeffs());
+    EXPECT_EQ(loaded.segments[i].heading_correction_rad,
+              aligned_.segments[i].heading_correction_rad);
+    EXPECT_TRUE(loaded.segments[i].p_segment_end_m == aligned_.segments[i].p_segment_end_m);
+    EXPECT_TRUE(loaded.segments[i].aligned);
+  }
+}
+
+TEST_F(AlignmentStoreTest, NothingSavedIsNotAnError) {
+  body::BodyDefinition definition = *body::MakeDefaultBody(kBody);
+  const auto found = store_.Load(definition);
+  ASSERT_TRUE(found.ok());
+  EXPECT_FALSE(*found);
+  const AlignmentStore off("");
+  EXPECT_TRUE(off.Prepare().ok());
+  EXPECT_TRUE(off.Save(definition).ok());
+  EXPECT_FALSE(*off.Load(definition));
+}
+
+TEST_F(AlignmentStoreTest, AFileCutOffAnywhereIsRefused) {
+  ASSERT_TRUE(store_.Save(aligned_).ok());
+  const std::string whole = Text();
+  for (std::size_t length = 0; length + 2 < whole.size(); length += 97) {
+    Overwrite(whole.substr(0, length));
+    EXPECT_NE(Refusal(), "") << "cut off at " << length;
+  }
+  Overwrite(whole);
+  EXPECT_EQ(store_.Load(aligned_).ok(), true);
+}
+
+TEST_F(AlignmentStoreTest, WrongContentIsRefusedByName) {
+  ASSERT_TRUE(store_.Save(aligned_).ok());
+  const std::string whole = Text();
+  const auto with = [&](std::string_view from, std::string_view to) {
+    std::string text = whole;
+    text.replace(text.find(from), from.size(), to);
+    Overwrite(text);
+    return Refusal();
+  };
+  EXPECT_THAT(with("version = 1", "version = 2"), HasSubstr("version must be in [1, 1], is 2"));
+  EXPECT_THAT(with("body_id = 3", "body_id = 4"), HasSubstr("body_id must be 3"));
+  EXPECT_THAT(with("[l5]", "[tail]"), HasSubstr("segments must be 22"));
+  EXPECT_THAT(with("heading_correction_rad = -0.14", "heading_correction_rad = -9.14"),
+              HasSubstr("pelvis.heading_correction_rad"));
+  EXPECT_THAT(with("sensor_uid = \"fedc", "sensor_uid = \"xedc"), HasSubstr("hexadecimal"));
+  EXPECT_THAT(with("q_sensor_segment = [0", "q_sensor_segment = [1"),
+              HasSubstr("q_sensor_segment"));
+}
+
+TEST_F(AlignmentStoreTest, ARefusedFileIsSetAsideNotLost) {
+  Overwrite("this is not TOML");
+  ASSERT_TRUE(store_.Save(aligned_).ok());
+  EXPECT_TRUE(fs::exists(store_.PathOf(kBody).string() + ".refused"));
+  body::BodyDefinition definition = *body::MakeDefaultBody(kBody);
+  EXPECT_TRUE(*store_.Load(definition));
+}
+
+TEST_F(AlignmentStoreTest, AFailedSaveKeepsTheOldFile) {
+  ASSERT_TRUE(store_.Save(aligned_).ok());
+  const std::string before = Text();
+  fs::create_directory(store_.PathOf(kBody).string() + ".new");  // in the way of the new file
+  aligned_.revision = 8;
+  EXPECT_FALSE(store_.Save(aligned_).ok());
+  EXPECT_EQ(Text(), before);
+}
+
+TEST_F(AlignmentStoreTest, SegmentsThatTheBodyDoesNotHaveAreLeftOut) {
+  ASSERT_TRUE(store_.Save(aligned_).ok());
+  body::BodyDefinition reduced =
+      body::KeepSegments(*body::MakeDefaultBody(kBody), body::ReducedSegments());
+  const auto found = store_.Load(reduced);
+  ASSERT_TRUE(found.ok());
+  EXPECT_EQ(reduced.segments.size(), 15U);
+  EXPECT_TRUE(reduced.segments[1].aligned);
+}
+
+TEST(AlignmentStorePrepareTest, AFolderThatCannotBeIsRefusedByName) {
+  const Status prepared = AlignmentStore("/proc/no/such").Prepare();
+  ASSERT_FALSE(prepared.ok());
+  EXPECT_THAT(prepared.error().message, HasSubstr("/proc/no/such"));
+}
+
+}  // namespace
+}  // namespace limbcast::posture
