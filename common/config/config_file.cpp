@@ -14,12 +14,23 @@ namespace limbcast::config {
 
 namespace internal {
 
+constexpr std::string_view kOverride = "--set ";
+
 struct Document {
   std::string name;
   toml::table root;
   std::optional<Error> first_error;
   std::set<const toml::node*> known;  // nodes that somebody asked for
 };
+
+// "fusion.toml:12", or "--set fusion.workers=0" for what the command line put there.
+std::string PlaceOf(const Document& document, const toml::node* node) {
+  if (node == nullptr || node->source().begin.line == 0) {
+    return document.name;
+  }
+  const std::string name = node->source().path == nullptr ? document.name : *node->source().path;
+  return name.starts_with(kOverride) ? name : fmt::format("{}:{}", name, node->source().begin.line);
+}
 
 struct Node {
   std::shared_ptr<Document> document;
@@ -40,11 +51,12 @@ struct Node {
     if (document->first_error) {
       return;
     }
-    const std::uint32_t line = at == nullptr ? 0 : at->source().begin.line;
-    const std::string place =
-        line == 0 ? document->name + ": " : fmt::format("{}:{}: ", document->name, line);
-    document->first_error =
-        Error{ErrorCode::kInvalidArgument, fmt::format("{}{} {}", place, PathOf(key), message)};
+    const std::string where = PathOf(key);
+    // Messages of other rooms may name the thing themselves.
+    const bool named = message.starts_with(where);
+    document->first_error = Error{ErrorCode::kInvalidArgument,
+                                  fmt::format("{}: {}{}{}", PlaceOf(*document, at),
+                                              named ? "" : where, named ? "" : " ", message)};
   }
 };
 
@@ -70,8 +82,8 @@ std::optional<Error> FindUnknown(const internal::Document& document, const toml:
                                const std::string& child_path) -> std::optional<Error> {
     if (!document.known.contains(&child)) {
       return Error{ErrorCode::kInvalidArgument,
-                   fmt::format("{}:{}: {} is not a known key", document.name,
-                               child.source().begin.line, child_path)};
+                   fmt::format("{}: {} is not a known key", internal::PlaceOf(document, &child),
+                               child_path)};
     }
     return FindUnknown(document, child, child_path);
   };
@@ -373,7 +385,7 @@ Status ConfigFile::Override(std::string_view assignment) {
     return Error{ErrorCode::kInvalidArgument,
                  fmt::format("--set must be KEY=VALUE, is \"{}\"", assignment)};
   }
-  const std::string name = fmt::format("--set {}", assignment);
+  const std::string name = fmt::format("{}{}", internal::kOverride, assignment);
   Result<toml::table> table = ParseToml(assignment, name);
   if (!table) {  // a bare word: --set filter.name=tqt
     const std::string quoted =

@@ -172,6 +172,24 @@ TEST(ConfigFileTest, AnOverrideGoesOverTheFileAndABareWordIsText) {
   EXPECT_FALSE(file.Override("a b=\"").ok());
 }
 
+TEST(ConfigFileTest, ARefusalOfAnOverrideNamesTheOptionAndNotTheFile) {
+  ConfigFile file = ParseOk("[fusion]\nworkers = 1\n");
+  EXPECT_TRUE(file.Override("fusion.workers=0").ok());
+  (void)file.Get("fusion").Read("workers", 1, 1, 64);
+  EXPECT_EQ(MessageOf(file.Finish()),
+            "--set fusion.workers=0: fusion.workers must be in [1, 64], is 0");
+  ConfigFile unknown = ParseOk("");
+  EXPECT_TRUE(unknown.Override("fusionn.workers=2").ok());
+  EXPECT_EQ(MessageOf(unknown.Finish()), "--set fusionn.workers=2: fusionn is not a known key");
+}
+
+TEST(ConfigFileTest, AMessageThatNamesItsKeyIsNotNamedTwice) {
+  const ConfigFile file = ParseOk("[bus]\ndds = \"x\"\n");
+  file.Get("bus").Fail("dds", "bus.dds must be one of cyclone, fast, is \"x\"");
+  EXPECT_EQ(MessageOf(file.Finish()),
+            R"(test.toml:2: bus.dds must be one of cyclone, fast, is "x")");
+}
+
 TEST(ConfigFileTest, ASyntaxErrorIsNamedWithFileAndLine) {
   const Result<ConfigFile> file = ConfigFile::Parse("a = 1\nb = = 2\n", "bad.toml");
   ASSERT_FALSE(file.ok());
