@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "common/bus/endpoint_events.hpp"
-#include "common/bus/fastdds/fast_key.hpp"
 #include "common/bus/fastdds/fast_participant.hpp"
 #include "common/bus/fastdds/fast_qos.hpp"
 #include "common/bus/fastdds/fast_type.hpp"
@@ -44,7 +43,7 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
   [[nodiscard]] Status Open() {
     namespace dds = eprosima::fastdds::dds;
     const auto topic = participant_.TopicOf(Topic<T>::kName, Topic<T>::kShortName,
-                                            dds::TypeSupport(new Type(Codec<T>::kTypeName)));
+                                            dds::TypeSupport(new FastType<T>()));
     if (!topic) {
       return topic.error();
     }
@@ -62,8 +61,6 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
   [[nodiscard]] EndpointCounters counters() const override { return events_.counters(); }
 
  private:
-  using Wire = typename Codec<T>::Wire;
-  using Type = FastType<Wire>;
   using Code = eprosima::fastrtps::types::ReturnCode_t;
   using DataReader = eprosima::fastdds::dds::DataReader;
   using Handle = eprosima::fastdds::dds::InstanceHandle_t;
@@ -102,7 +99,8 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
     if (known_.erase(handle) == 0) {
       return;
     }
-    if (!KeyOfHandle<T>(handle, sample_.wire) || !Codec<T>::DecodeKey(sample_.wire, value_)) {
+    Codec<T>::FromKeyHash(KeyOf(handle), sample_.wire);
+    if (!Codec<T>::DecodeKey(sample_.wire, value_)) {
       return;  // cannot be: a good sample had this key
     }
     events_.Disposed();
@@ -146,7 +144,7 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
   ReaderHandler<T> handler_;
   std::mutex mutex_;  // one call of the handler at a time; guards what follows
   bool closed_ = false;
-  FastSample<Wire> sample_;
+  FastSample<T> sample_;
   T value_;
   std::set<Handle> known_;  // instances that the handler has seen and that were not disposed
   DataReader* reader_ = nullptr;

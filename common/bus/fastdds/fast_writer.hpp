@@ -7,7 +7,6 @@
 #include <string>
 
 #include "common/bus/endpoint_events.hpp"
-#include "common/bus/fastdds/fast_key.hpp"
 #include "common/bus/fastdds/fast_participant.hpp"
 #include "common/bus/fastdds/fast_qos.hpp"
 #include "common/bus/fastdds/fast_type.hpp"
@@ -36,7 +35,7 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
   [[nodiscard]] Status Open() {
     namespace dds = eprosima::fastdds::dds;
     const auto topic = participant_.TopicOf(Topic<T>::kName, Topic<T>::kShortName,
-                                            dds::TypeSupport(new Type(Codec<T>::kTypeName)));
+                                            dds::TypeSupport(new FastType<T>()));
     if (!topic) {
       return topic.error();
     }
@@ -60,7 +59,7 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
       return Failed("write", code);
     }
     if constexpr (Topic<T>::kExclusiveOwnership) {
-      RememberInstance();
+      written_.insert(Codec<T>::HashKey(sample_.wire));
     }
     events_.Sample();
     return Ok();
@@ -78,10 +77,8 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
   [[nodiscard]] EndpointCounters counters() const override { return events_.counters(); }
 
  private:
-  using Type = FastType<typename Codec<T>::Wire>;
   using Code = eprosima::fastrtps::types::ReturnCode_t;
   using DataWriter = eprosima::fastdds::dds::DataWriter;
-  using Handle = eprosima::fastdds::dds::InstanceHandle_t;
 
   static Status Failed(const char* what, const Code& code) {
     const std::string where = std::string(what) + " " + std::string(Topic<T>::kName) + ": ";
@@ -91,19 +88,11 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
     return Error{ErrorCode::kUnavailable, where + "Fast DDS return code " + std::to_string(code())};
   }
 
-  void RememberInstance() {
-    Handle handle;
-    if (HandleOf(sample_.wire, handle)) {
-      written_.insert(handle);
-    }
-  }
-
   // A weaker writer takes over at once when the owner says good-bye to its instances.
   void UnregisterAll() {
-    for (const Handle& handle : written_) {
-      if (KeyOfHandle<T>(handle, sample_.wire)) {
-        writer_->unregister_instance(&sample_, handle);
-      }
+    for (const KeyHash& key : written_) {
+      Codec<T>::FromKeyHash(key, sample_.wire);
+      writer_->unregister_instance(&sample_, eprosima::fastdds::dds::HANDLE_NIL);
     }
   }
 
@@ -121,8 +110,8 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
   FastParticipant& participant_;
   EndpointEvents events_;
   std::mutex mutex_;  // guards the next two and keeps samples in the order of the calls
-  FastSample<typename Codec<T>::Wire> sample_;
-  std::set<Handle> written_;
+  FastSample<T> sample_;
+  std::set<KeyHash> written_;  // exclusive topics only
   DataWriter* writer_ = nullptr;
 };
 
