@@ -1,0 +1,358 @@
+#include "common/client/client.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <random>
+#include <utility>
+
+#include "common/body/default_body.hpp"
+#include "common/bus/bus_factory.hpp"
+
+namespace limbcast::client {
+namespace {
+
+class SystemClock final : public Clock {
+ public:
+  [[nodiscard]] Time Now() const override {
+    return Time(
+        std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()));
+  }
+};
+
+std::uint64_t RandomUid() {
+  std::random_device device;
+  return (std::uint64_t{device()} << 32U) | device();
+}
+
+Status Validate(const ClientOptions& options) {
+  if (options.history < 2 || options.history > 4096) {
+    return Error{ErrorCode::kInvalidArgument, "client history must be in [2, 4096] skeletons, is " +
+                                                  std::to_string(options.history)};
+  }
+  if (options.max_prediction < Duration::zero() ||
+      options.max_prediction > std::chrono::seconds(1)) {
+    return Error{ErrorCode::kInvalidArgument,
+                 "client max_prediction must be in [0, 1] s, is " +
+                     std::to_string(ToSeconds(options.max_prediction))};
+  }
+  return Ok();
+}
+
+}  // namespace
+
+class Client::Impl {
+ public:
+  Impl(std::unique_ptr<Clock> own_clock, const Clock* clock, const ClientOptions& options)
+      : own_clock_(std::move(own_clock)),
+        clock_(clock != nullptr ? *clock : *own_clock_),
+        options_(options),
+        client_uid_(RandomUid()) {}
+
+  void Own(std::unique_ptr<bus::Bus> bus) { own_bus_ = std::move(bus); }
+  Status Join(bus::Bus& bus);
+
+  [[nodiscard]] const Clock& clock() const { return clock_; }
+  [[nodiscard]] std::vector<BodyId> Bodies() const;
+  [[nodiscard]] std::optional<body::BodyDefinition> Definition(BodyId body_id) const;
+  [[nodiscard]] std::optional<body::Skeleton> Latest(BodyId body_id) const;
+  [[nodiscard]] std::optional<Pose> PoseAt(BodyId body_id, Time at) const;
+  void OnSkeleton(std::function<void(const body::Skeleton&)> callback) {
+    const std::scoped_lock lock(callback_mutex_);
+    on_skeleton_ = std::move(callback);
+  }
+  void OnBody(std::function<void(const body::BodyDefinition&, bool)> callback) {
+    const std::scoped_lock lock(callback_mutex_);
+    on_body_ = std::move(callback);
+  }
+  Result<roster::CommandReply> Send(roster::Command command, Duration timeout);
+  [[nodiscard]] std::string Describe() const { return bus_->Describe(); }
+
+ private:
+  struct Person {
+    explicit Person(std::size_t history) : skeletons(history) {}
+    std::optional<body::BodyDefinition> definition;
+    std::optional<body::ForwardKinematics> kinematics;  // of the definition
+    SkeletonHistory skeletons;
+  };
+  Person& Of(BodyId body_id) {
+    return people_.try_emplace(body_id, options_.history).first->second;
+  }
+  void Take(const body::Skeleton& skeleton);
+  void Take(const body::BodyDefinition& definition);
+  void Remove(const body::BodyDefinition& key);
+  void Take(const roster::CommandReply& reply);
+
+  const std::unique_ptr<Clock> own_clock_;
+  const Clock& clock_;
+  const ClientOptions options_;
+  const std::uint64_t client_uid_;
+
+  std::mutex callback_mutex_;  // held during callbacks; taken before mutex_ or alone
+  std::function<void(const body::Skeleton&)> on_skeleton_;
+  std::function<void(const body::BodyDefinition&, bool)> on_body_;
+
+  mutable std::mutex mutex_;  // guards all below it but the endpoints; never held in a callback
+  std::condition_variable changed_;
+  std::map<BodyId, Person> people_;
+  std::uint64_t requests_ = 0;
+  std::map<std::uint64_t, std::optional<roster::CommandReply>> waiting_;  // by request_id
+
+  std::unique_ptr<bus::Bus> own_bus_;  // outlives the endpoints, which are declared after it
+  bus::Bus* bus_ = nullptr;
+  std::unique_ptr<bus::Writer<roster::Command>> commands_;
+  std::unique_ptr<bus::Reader<roster::CommandReply>> replies_;
+  std::unique_ptr<bus::Reader<body::BodyDefinition>> definitions_;
+  std::unique_ptr<bus::Reader<body::Skeleton>> skeletons_;
+};
+
+Status Client::Impl::Join(bus::Bus& bus) {
+  bus_ = &bus;
+  auto commands = bus.MakeWriter<roster::Command>();
+  if (!commands) {
+    return commands.error();
+  }
+  auto replies = bus.MakeReader<roster::CommandReply>(
+      {.on_sample = [this](const auto& reply, const bus::SampleInfo&) { Take(reply); },
+       .on_disposed = {}});
+  if (!replies) {
+    return replies.error();
+  }
+  auto definitions = bus.MakeReader<body::BodyDefinition>(
+      {.on_sample = [this](const auto& definition, const bus::SampleInfo&) { Take(definition); },
+       .on_disposed = [this](const auto& key) { Remove(key); }});
+  if (!definitions) {
+    return definitions.error();
+  }
+  auto skeletons = bus.MakeReader<body::Skeleton>(
+      {.on_sample = [this](const auto& skeleton, const bus::SampleInfo&) { Take(skeleton); },
+       .on_disposed = {}});
+  if (!skeletons) {
+    return skeletons.error();
+  }
+  commands_ = std::move(*commands);
+  replies_ = std::move(*replies);
+  definitions_ = std::move(*definitions);
+  skeletons_ = std::move(*skeletons);
+  return Ok();
+}
+
+void Client::Impl::Take(const body::Skeleton& skeleton) {
+  {
+    const std::scoped_lock lock(mutex_);
+    Of(skeleton.body_id).skeletons.Add(skeleton);
+  }
+  const std::scoped_lock lock(callback_mutex_);
+  if (on_skeleton_) {
+    on_skeleton_(skeleton);
+  }
+}
+
+void Client::Impl::Take(const body::BodyDefinition& definition) {
+  {
+    const std::scoped_lock lock(mutex_);
+    Person& person = Of(definition.body_id);
+    person.definition = definition;
+    person.kinematics.reset();
+    if (body::Validate(definition)) {
+      person.kinematics.emplace(definition);
+    }
+    changed_.notify_all();
+  }
+  const std::scoped_lock lock(callback_mutex_);
+  if (on_body_) {
+    on_body_(definition, true);
+  }
+}
+
+void Client::Impl::Remove(const body::BodyDefinition& key) {
+  body::BodyDefinition left;
+  left.body_id = key.body_id;
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto person = people_.find(key.body_id);
+    if (person == people_.end()) {
+      return;
+    }
+    left = person->second.definition.value_or(left);
+    people_.erase(person);
+  }
+  const std::scoped_lock lock(callback_mutex_);
+  if (on_body_) {
+    on_body_(left, false);
+  }
+}
+
+void Client::Impl::Take(const roster::CommandReply& reply) {
+  if (reply.client_uid != client_uid_) {
+    return;  // somebody else's
+  }
+  const std::scoped_lock lock(mutex_);
+  const auto request = waiting_.find(reply.request_id);
+  if (request != waiting_.end() && !request->second) {
+    request->second = reply;
+    changed_.notify_all();
+  }
+}
+
+std::vector<BodyId> Client::Impl::Bodies() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<BodyId> bodies;
+  for (const auto& [body_id, person] : people_) {
+    if (person.definition) {
+      bodies.push_back(body_id);
+    }
+  }
+  return bodies;
+}
+
+std::optional<body::BodyDefinition> Client::Impl::Definition(BodyId body_id) const {
+  const std::scoped_lock lock(mutex_);
+  const auto person = people_.find(body_id);
+  return person == people_.end() ? std::nullopt : person->second.definition;
+}
+
+std::optional<body::Skeleton> Client::Impl::Latest(BodyId body_id) const {
+  const std::scoped_lock lock(mutex_);
+  const auto person = people_.find(body_id);
+  if (person == people_.end() || person->second.skeletons.empty()) {
+    return std::nullopt;
+  }
+  return person->second.skeletons.latest();
+}
+
+std::optional<Pose> Client::Impl::PoseAt(BodyId body_id, Time at) const {
+  const std::scoped_lock lock(mutex_);
+  const auto found = people_.find(body_id);
+  if (found == people_.end() || found->second.skeletons.empty()) {
+    return std::nullopt;
+  }
+  const Person& person = found->second;
+  const bool same_definition =
+      person.kinematics &&
+      person.definition->revision == person.skeletons.latest().definition_revision;
+  return person.skeletons.At(at, options_.max_prediction,
+                             same_definition ? &*person.kinematics : nullptr);
+}
+
+Result<roster::CommandReply> Client::Impl::Send(roster::Command command, Duration timeout) {
+  const auto until = std::chrono::steady_clock::now() + timeout;
+  command.client_uid = client_uid_;
+  std::unique_lock lock(mutex_);
+  // Discovery takes a moment, and a command that nobody hears is gone: first see the person whom a
+  // service speaks for, and a listener.
+  const auto ready = [&] {
+    const auto person = people_.find(command.body_id);
+    return person != people_.end() && person->second.definition.has_value() &&
+           commands_->counters().matched > 0 && replies_->counters().matched > 0;
+  };
+  constexpr auto kLookAgain = std::chrono::milliseconds(20);  // matching wakes nobody
+  while (!ready() && std::chrono::steady_clock::now() < until) {
+    changed_.wait_until(lock, std::min(until, std::chrono::steady_clock::now() + kLookAgain));
+  }
+  if (!ready()) {
+    const bool known = people_.contains(command.body_id);
+    return known ? Error{ErrorCode::kUnavailable,
+                         "no service listens to commands on " + bus_->Describe()}
+                 : Error{ErrorCode::kNotFound,
+                         "no body " + std::to_string(command.body_id.value) + " is published"};
+  }
+  command.request_id = ++requests_;
+  const auto request = waiting_.try_emplace(command.request_id).first;
+  lock.unlock();
+  const Status written = commands_->Write(command);
+  commands_->Flush();
+  lock.lock();
+  if (!written) {
+    waiting_.erase(request);
+    return written.error();
+  }
+  const bool answered =
+      changed_.wait_until(lock, until, [&] { return request->second.has_value(); });
+  const auto node = waiting_.extract(request);
+  if (!answered) {
+    return Error{ErrorCode::kTimeout,
+                 "no answer to the command within " + std::to_string(ToSeconds(timeout)) + " s"};
+  }
+  return *node.mapped();
+}
+
+Client::Client(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Client::~Client() = default;
+
+Result<std::unique_ptr<Client>> Client::Connect(const ClientOptions& options) {
+  if (const Status valid = Validate(options); !valid) {
+    return valid.error();
+  }
+  bus::BusConfig config;
+  const auto vendor = bus::ParseVendor(options.dds);
+  if (!vendor) {
+    return vendor.error();
+  }
+  config.vendor = *vendor;
+  config.domain_id = options.domain_id;
+  config.partition = options.partition;
+  config.participant_name = options.name;
+  if (const Status network = bus::ParseNetwork(options.network, config); !network) {
+    return network.error();
+  }
+  if (const Status valid = bus::Validate(config); !valid) {
+    return valid.error();
+  }
+  auto impl = std::make_unique<Impl>(std::make_unique<SystemClock>(), nullptr, options);
+  auto bus = bus::Open(config);
+  if (!bus) {
+    return bus.error();
+  }
+  bus::Bus& joined = **bus;
+  impl->Own(std::move(*bus));
+  if (const Status status = impl->Join(joined); !status) {
+    return status.error();
+  }
+  return std::unique_ptr<Client>(new Client(std::move(impl)));
+}
+
+Result<std::unique_ptr<Client>> Client::Attach(bus::Bus& bus, const Clock& clock,
+                                               const ClientOptions& options) {
+  if (const Status valid = Validate(options); !valid) {
+    return valid.error();
+  }
+  auto impl = std::make_unique<Impl>(nullptr, &clock, options);
+  if (const Status status = impl->Join(bus); !status) {
+    return status.error();
+  }
+  return std::unique_ptr<Client>(new Client(std::move(impl)));
+}
+
+Time Client::Now() const { return impl_->clock().Now(); }
+std::vector<BodyId> Client::Bodies() const { return impl_->Bodies(); }
+std::optional<body::BodyDefinition> Client::Definition(BodyId body_id) const {
+  return impl_->Definition(body_id);
+}
+std::optional<body::Skeleton> Client::Latest(BodyId body_id) const {
+  return impl_->Latest(body_id);
+}
+std::optional<Pose> Client::PoseAt(BodyId body_id, Time display_time) const {
+  return impl_->PoseAt(body_id, display_time);
+}
+void Client::OnSkeleton(std::function<void(const body::Skeleton&)> callback) {
+  impl_->OnSkeleton(std::move(callback));
+}
+void Client::OnBody(std::function<void(const body::BodyDefinition&, bool)> callback) {
+  impl_->OnBody(std::move(callback));
+}
+Result<roster::CommandReply> Client::Send(roster::CommandKind kind, BodyId body_id,
+                                          const std::string& text,
+                                          const std::vector<double>& numbers, Duration timeout) {
+  roster::Command command;
+  command.body_id = body_id;
+  command.kind = kind;
+  command.text = text;
+  command.numbers = numbers;
+  return impl_->Send(std::move(command), timeout);
+}
+std::string Client::Describe() const { return impl_->Describe(); }
+
+}  // namespace limbcast::client
