@@ -3,6 +3,7 @@
 #include <array>
 
 #include "common/filters/bounded_motion_filter.hpp"
+#include "common/filters/complementary_kalman.hpp"
 #include "common/filters/gauss_newton_orientation.hpp"
 
 namespace limbcast::filters {
@@ -20,11 +21,12 @@ FilterResult Make(std::string_view name, std::span<const SettingField<Config>> f
   return std::unique_ptr<OrientationFilter>(std::make_unique<Filter>(*config));
 }
 
-constexpr std::array<std::string_view, 3> kNames = {"tqt", "bmf", "bmf-plain"};
+constexpr std::array<std::string_view, 5> kNames = {"tqt", "ckf", "ckf-plain", "bmf", "bmf-plain"};
 
 FilterResult MakeBoundedMotion(std::string_view name, std::span<const Setting> settings,
                                const BoundedMotionConfig& defaults) {
-  auto config = ConfigFromSettings<BoundedMotionConfig>(name, BoundedMotionFields(), settings, defaults);
+  auto config =
+      ConfigFromSettings<BoundedMotionConfig>(name, BoundedMotionFields(), settings, defaults);
   if (!config) {
     return config.error();
   }
@@ -39,6 +41,11 @@ Result<std::unique_ptr<OrientationFilter>> MakeFilter(std::string_view name,
                                                       std::span<const Setting> settings) {
   if (name == "tqt") {
     return Make<GaussNewtonOrientation>(name, GaussNewtonFields(), settings);
+  }
+  if (name == "ckf" || name == "ckf-plain") {
+    ComplementaryKalmanConfig defaults;
+    defaults.use_disturbance = name == "ckf";
+    return Make<ComplementaryKalman>(name, ComplementaryKalmanFields(), settings, defaults);
   }
   if (name == "bmf") {
     return MakeBoundedMotion("bmf", settings, BoundedMotionConfig());

@@ -26,7 +26,7 @@ struct GaussNewtonConfig {
   RateIntegration integration = RateIntegration::kAuto;
 
   /// Feedback gain k; crossover frequency k/2π. Large values trust accelerometer and magnetometer,
-  /// small values the gyro; published 0.1–4. 0 = automatic: 0.1 once the gyro null is known, 0.3
+  /// small values the gyro; published 0.1–4. 0 = automatic: 0.04 once the gyro null is known, 0.3
   /// before. Range: [0, 100].
   double k_per_s = 0.0;
 
