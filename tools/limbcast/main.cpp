@@ -2,8 +2,11 @@
 #include <optional>
 
 #include "common/service/service_command_line.hpp"
+#include "tools/limbcast/demo_command.hpp"
 #include "tools/limbcast/echo_command.hpp"
+#include "tools/limbcast/evaluate_command.hpp"
 #include "tools/limbcast/sub_command.hpp"
+#include "tools/limbcast/top_command.hpp"
 
 int main(int argc, char** argv) {
   using namespace limbcast;
@@ -15,7 +18,10 @@ int main(int argc, char** argv) {
   line.app().require_subcommand(1);
   line.app().fallthrough();
   const std::array commands = {
+      tool::AddDemoCommand(line),
+      tool::AddTopCommand(line),
       tool::AddEchoCommand(line),
+      tool::AddEvaluateCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;

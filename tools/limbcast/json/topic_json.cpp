@@ -33,20 +33,13 @@ json FlagsToJson(std::uint32_t flags) {
   return names;
 }
 
-std::string_view NameOf(body::SegmentStatus status) {
-  static constexpr std::array<std::string_view, 4> kNames = {"missing", "tracked", "stale",
-                                                             "filled"};
-  const auto index = static_cast<std::size_t>(status);
-  return index < kNames.size() ? kNames[index] : "unknown";
-}
-
-std::string_view NameOf(roster::Role role) {
+std::string_view RoleName(roster::Role role) {
   static constexpr std::array<std::string_view, 3> kNames = {"performer", "spectator", "operator"};
   const auto index = static_cast<std::size_t>(role);
   return index < kNames.size() ? kNames[index] : "unknown";
 }
 
-std::string_view NameOf(roster::CommandKind kind) {
+std::string_view CommandName(roster::CommandKind kind) {
   static constexpr std::array<std::string_view, 5> kNames = {
       "reference_pose", "reset_heading", "set_dimensions", "select_filter", "undo"};
   const auto index = static_cast<std::size_t>(kind);
@@ -261,7 +254,7 @@ json ToJson(const roster::JoinRequest& value) {
           {"request_id", value.request_id},
           {"session", value.session},
           {"person", value.person},
-          {"role", NameOf(value.role)}};
+          {"role", RoleName(value.role)}};
 }
 
 json ToJson(const roster::JoinReply& value) {
@@ -274,7 +267,7 @@ json ToJson(const roster::Command& value) {
   return {{"client_uid", value.client_uid},
           {"request_id", value.request_id},
           {"body_id", value.body_id.value},
-          {"kind", NameOf(value.kind)},
+          {"kind", CommandName(value.kind)},
           {"text", value.text},
           {"numbers", ListToJson(value.numbers, NumberToJson)}};
 }

@@ -44,4 +44,18 @@ std::string_view NameOf(HeadingReference heading) {
   return "unknown";
 }
 
+std::string_view NameOf(body::SegmentStatus status) {
+  switch (status) {
+    case body::SegmentStatus::kMissing:
+      return "missing";
+    case body::SegmentStatus::kTracked:
+      return "tracked";
+    case body::SegmentStatus::kStale:
+      return "stale";
+    case body::SegmentStatus::kFilled:
+      return "filled";
+  }
+  return "unknown";
+}
+
 }  // namespace limbcast::tool

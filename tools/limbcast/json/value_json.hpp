@@ -8,6 +8,7 @@
 #include "common/base/time.hpp"
 #include "common/base/tracking.hpp"
 #include "common/base/verdict.hpp"
+#include "common/body/skeleton.hpp"
 #include "common/body/stage_times.hpp"
 
 namespace limbcast::tool {
@@ -50,5 +51,6 @@ template <typename Scalar>
 [[nodiscard]] nlohmann::json StagesToJson(const body::StageTimes& stages);
 [[nodiscard]] std::string_view NameOf(MagneticState state);
 [[nodiscard]] std::string_view NameOf(HeadingReference heading);
+[[nodiscard]] std::string_view NameOf(body::SegmentStatus status);
 
 }  // namespace limbcast::tool

@@ -1,0 +1,125 @@
+// With small scripts in place of the services.
+#include "tools/limbcast/demo/pipeline_processes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+namespace limbcast::tool {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+class PipelineProcessesTest : public ::testing::Test {
+ protected:
+  PipelineProcessesTest() {
+    std::string name = (std::filesystem::temp_directory_path() / "limbcast-demo-XXXXXX").string();
+    options_.folder = mkdtemp(name.data());
+  }
+  ~PipelineProcessesTest() override { std::filesystem::remove_all(options_.folder); }
+
+  void Script(const std::string& part, const std::string& text) const {
+    const auto path = std::filesystem::path(options_.folder) / ("limbcast-" + part);
+    std::ofstream(path) << "#!/bin/sh\n" << text << '\n';
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  }
+
+  // Looks after them until `done`, or fails after a generous while.
+  template <typename Done>
+  static Status SuperviseUntil(PipelineProcesses& processes, Done done) {
+    const auto deadline = std::chrono::steady_clock::now() + 20s;
+    while (std::chrono::steady_clock::now() < deadline) {
+      if (const Status alive = processes.Supervise(); !alive) {
+        return alive;
+      }
+      if (done()) {
+        return Ok();
+      }
+    }
+    return Error{ErrorCode::kTimeout, "nothing happened"};
+  }
+
+  DemoOptions options_;
+};
+
+TEST_F(PipelineProcessesTest, RecordingIsPlayedToItsEndAndQuotedForToml) {
+  options_.recording = "/data/a \"b\".hdf5";
+  const auto arguments = ArgumentsOf(Part::kGateway, options_);
+  EXPECT_THAT(arguments, ::testing::Contains("replay.recording=\"/data/a \\\"b\\\".hdf5\""));
+  EXPECT_THAT(arguments, ::testing::Contains("gateway.exit_at_end=true"));
+  EXPECT_THAT(arguments, ::testing::Contains("gateway.speed=max"));
+}
+
+TEST_F(PipelineProcessesTest, WhatRefusesToRunIsToldInItsOwnWords) {
+  Script("fusion", "echo first >&2; echo 'limbcast-fusion: domain 7 is in use' >&2; exit 1");
+  PipelineProcesses processes(options_);
+  ASSERT_TRUE(processes.Start(Part::kFusion).ok());
+  const Status status = SuperviseUntil(processes, [] { return false; });
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().message, "limbcast-fusion: domain 7 is in use");
+  EXPECT_EQ(status.error().code, ErrorCode::kUnavailable);
+  EXPECT_FALSE(processes.clean());
+}
+
+TEST_F(PipelineProcessesTest, WhatIsNotThereIsNamed) {
+  PipelineProcesses processes(options_);
+  const Status status = processes.Start(Part::kPosture);
+  ASSERT_FALSE(status.ok());
+  EXPECT_THAT(status.error().message, HasSubstr("limbcast-posture: No such file"));
+}
+
+TEST_F(PipelineProcessesTest, WhoIsKilledIsStartedAgainAndThatIsNoFailure) {
+  Script("posture", "exec sleep 100");
+  PipelineProcesses processes(options_);
+  ASSERT_TRUE(processes.Start(Part::kPosture).ok());
+  const std::uint32_t first = processes.pid(Part::kPosture);
+  kill(static_cast<pid_t>(first), SIGKILL);
+  const Status status =
+      SuperviseUntil(processes, [&] { return processes.pid(Part::kPosture) != first; });
+  EXPECT_TRUE(status.ok());
+  EXPECT_EQ(processes.restarts().at("posture"), 1);
+  EXPECT_TRUE(processes.clean());
+}
+
+TEST_F(PipelineProcessesTest, ACrashIsStartedAgainButIsNotClean) {
+  Script("posture", "exec sleep 100");
+  PipelineProcesses processes(options_);
+  ASSERT_TRUE(processes.Start(Part::kPosture).ok());
+  kill(static_cast<pid_t>(processes.pid(Part::kPosture)), SIGSEGV);
+  EXPECT_TRUE(SuperviseUntil(processes, [&] { return !processes.restarts().empty(); }).ok());
+  EXPECT_FALSE(processes.clean());
+}
+
+TEST_F(PipelineProcessesTest, GatewayThatEndsWithItsRecordingHasFinished) {
+  options_.recording = "/data/x.hdf5";
+  Script("gateway", "exit 0");
+  PipelineProcesses processes(options_);
+  ASSERT_TRUE(processes.Start(Part::kGateway).ok());
+  EXPECT_TRUE(SuperviseUntil(processes, [&] { return processes.gateway_finished(); }).ok());
+  EXPECT_TRUE(processes.clean());
+  EXPECT_EQ(processes.leftovers(), 0U);
+}
+
+TEST_F(PipelineProcessesTest, StopIsCleanOnlyWithStatusZero) {
+  Script("fusion", "trap 'exit 0' TERM; echo ready >&2; while :; do sleep 0.01; done");
+  Script("posture", "trap 'exit 3' TERM; echo ready >&2; while :; do sleep 0.01; done");
+  PipelineProcesses processes(options_);
+  ASSERT_TRUE(processes.Start(Part::kFusion).ok());
+  ASSERT_TRUE(processes.Start(Part::kPosture).ok());
+  ASSERT_TRUE(SuperviseUntil(processes, [&] {
+                return processes.Errors() == "fusion: ready\nposture: ready\n";
+              }).ok());
+  EXPECT_TRUE(processes.Stop(Part::kFusion));
+  EXPECT_TRUE(processes.clean());
+  EXPECT_FALSE(processes.Stop(Part::kPosture));
+  EXPECT_FALSE(processes.clean());
+}
+
+}  // namespace
+}  // namespace limbcast::tool

@@ -1,0 +1,191 @@
+#include "tools/limbcast/evaluate_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/filters/filter_factory.hpp"
+#include "services/gateway/drivers/replay/recording_reader.hpp"
+#include "tools/limbcast/evaluate/orientation_report.hpp"
+#include "tools/limbcast/evaluate/orientation_trial.hpp"
+
+namespace limbcast::tool {
+namespace {
+
+struct EvaluateOptions {
+  std::string data;
+  std::vector<std::string> filters = {"bmf"};
+  std::vector<std::string> settings;
+  std::string out;
+  std::string json;
+};
+
+int Refuse(const Error& error) {
+  fmt::print(stderr, "limbcast evaluate: {}\n", error.message);
+  return 2;
+}
+
+// One line that overwrites itself; nothing when stderr is no terminal.
+void ShowProgress(std::size_t done, std::size_t all, const std::string& what) {
+  if (::isatty(STDERR_FILENO) == 0) {
+    return;
+  }
+  constexpr std::size_t kBar = 24;
+  const std::size_t filled = all == 0 ? kBar : kBar * done / all;
+  fmt::print(stderr, "\r[{:#>{}}{:.>{}}] {}/{} {:<56.56}{}", "", filled, "", kBar - filled, done,
+             all, what, done == all ? "\n" : "");
+}
+
+Result<std::vector<std::filesystem::path>> FilesOf(const std::string& data) {
+  std::error_code failed;
+  if (!std::filesystem::is_directory(data, failed)) {
+    return std::vector<std::filesystem::path>{data};
+  }
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(data, failed)) {
+    const auto extension = entry.path().extension();
+    if (extension == ".hdf5" || extension == ".h5" || extension == ".csv") {
+      files.push_back(entry.path());
+    }
+  }
+  if (files.empty()) {
+    return Error{ErrorCode::kNotFound,
+                 "--data " + data + " holds no recording (.hdf5, .h5 or .csv)"};
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// "key=value" is for every filter, "filter.key=value" for one.
+Result<std::vector<filters::Setting>> SettingsFor(const std::string& filter,
+                                                  const std::vector<std::string>& texts) {
+  std::vector<filters::Setting> settings;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      return Error{ErrorCode::kInvalidArgument,
+                   "--set must be key=value or filter.key=value, is '" + text + "'"};
+    }
+    std::string key = text.substr(0, equals);
+    if (const std::size_t dot = key.find('.'); dot != std::string::npos) {
+      if (key.substr(0, dot) != filter) {
+        continue;
+      }
+      key = key.substr(dot + 1);
+    }
+    settings.emplace_back(std::move(key), text.substr(equals + 1));
+  }
+  return settings;
+}
+
+struct PreparedFilter {
+  std::string name;
+  std::vector<filters::Setting> settings;
+};
+
+Result<std::vector<PreparedFilter>> PrepareFilters(const EvaluateOptions& options) {
+  std::vector<PreparedFilter> prepared;
+  for (const std::string& name : options.filters) {
+    auto settings = SettingsFor(name, options.settings);
+    if (!settings) {
+      return settings.error();
+    }
+    if (auto made = filters::MakeFilter(name, *settings); !made) {
+      return made.error();
+    }
+    prepared.push_back({name, std::move(*settings)});
+  }
+  return prepared;
+}
+
+Status SaveResults(const EvaluateOptions& options, const ReportHead& head,
+                   const std::vector<OrientationResult>& results) {
+  if (!options.out.empty()) {
+    const std::filesystem::path out = options.out;
+    for (const OrientationResult& result : results) {
+      if (Status saved =
+              SaveQuaternions(out / result.filter / (result.trial + ".csv"), result.q_earth_sensor);
+          !saved) {
+        return saved;
+      }
+    }
+    if (Status saved = SaveText(out / "report.html", OrientationHtml(head, results)); !saved) {
+      return saved;
+    }
+  }
+  if (!options.json.empty()) {
+    return SaveText(options.json, OrientationJson(head, results).dump(2) + "\n");
+  }
+  return Ok();
+}
+
+int EvaluateOrientation(const EvaluateOptions& options) {
+  const auto prepared = PrepareFilters(options);
+  if (!prepared) {
+    return Refuse(prepared.error());
+  }
+  const auto files = FilesOf(options.data);
+  if (!files) {
+    return Refuse(files.error());
+  }
+  std::vector<OrientationResult> results;
+  const std::size_t all = files->size() * prepared->size();
+  std::size_t done = 0;
+  for (const std::filesystem::path& file : *files) {
+    const auto recording = gateway::ReadRecording(file);
+    if (!recording) {
+      return Refuse(recording.error());
+    }
+    const auto trials = TrialsOf(*recording, file.stem().string());
+    if (trials.empty()) {
+      return Refuse({ErrorCode::kCorruptData,
+                     file.string() + " has no samples with a known orientation to compare with"});
+    }
+    for (const PreparedFilter& filter : *prepared) {
+      ShowProgress(done, all, file.stem().string() + " " + filter.name);
+      for (const OrientationTrial& trial : trials) {
+        auto made = filters::MakeFilter(filter.name, filter.settings);
+        results.push_back(EvaluateTrial(trial, **made));
+      }
+      ++done;
+    }
+  }
+  ShowProgress(done, all, "");
+  const ReportHead head{.filters = options.filters, .settings = options.settings};
+  fmt::print("{}", OrientationTable(head, results));
+  if (Status saved = SaveResults(options, head, results); !saved) {
+    return Refuse(saved.error());
+  }
+  return 0;
+}
+
+}  // namespace
+
+SubCommand AddEvaluateCommand(service::ServiceCommandLine& line) {
+  auto options = std::make_shared<EvaluateOptions>();
+  CLI::App* evaluate =
+      line.app().add_subcommand("evaluate", "Compare filters with the truth of recordings");
+  evaluate->require_subcommand(1);
+  evaluate->fallthrough();
+  CLI::App* app = evaluate->add_subcommand(
+      "orientation",
+      "Orientation errors by the definition of the BROAD benchmark.\nExample:\n  limbcast evaluate "
+      "orientation --data ../shared/data/broad --filter tqt,bmf --out /tmp/report");
+  app->add_option("--data", options->data, "A recording, or a folder of recordings")->required();
+  app->add_option("--filter", options->filters, "Filters, separated by commas")->delimiter(',');
+  app->add_option("--set", options->settings, "key=value or filter.key=value")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--out", options->out,
+                  "Folder for <filter>/<trial>.csv (w,x,y,z) and report.html");
+  app->add_option("--json", options->json, "File for the figures");
+  return {.app = evaluate, .run = [options] { return EvaluateOrientation(*options); }};
+}
+
+}  // namespace limbcast::tool
