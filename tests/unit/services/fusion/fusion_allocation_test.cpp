@@ -1,0 +1,100 @@
+// The hot path allocates nothing after the start. An executable of its own, because it replaces the
+// global operator new.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "services/fusion/fusion_service.hpp"
+#include "tests/unit/services/fusion/fusion_fixture.hpp"
+
+namespace {
+std::atomic<std::uint64_t> g_allocations{0};
+
+void* CountedAllocation(std::size_t size, std::size_t alignment) {
+  ++g_allocations;
+  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+  void* const memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
+  if (memory == nullptr) {
+    std::abort();
+  }
+  return memory;
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return CountedAllocation(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return CountedAllocation(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace limbcast::fusion {
+namespace {
+
+TEST(FusionAllocationTest, TheCounterSeesAnAllocation) {
+  const std::uint64_t before = g_allocations;
+  const auto memory = std::make_unique<int>(1);
+  EXPECT_EQ(g_allocations, before + 1) << *memory;
+}
+
+TEST(FusionAllocationTest, NoAllocationFromSampleToStateAfterTheStart) {
+  test_support::FakeClock clock;
+  const auto hub = bus::inproc::MakeHub(&clock);
+  const auto outside = bus::inproc::MakeBus(hub);
+  const auto inside = bus::inproc::MakeBus(hub);
+  test_support::ImmediatePool pool;
+  FusionConfig config;
+  config.filter.beside = "tqt";
+  FusionService service(config, clock, *inside, pool);  // with the shipped filter
+  ASSERT_TRUE(service.Start().ok());
+  std::uint64_t states = 0;
+  const auto reader = *outside->MakeReader<body::SegmentState>(
+      {.on_sample = [&](const body::SegmentState&, const bus::SampleInfo&) { ++states; },
+       .on_disposed = {}});
+  const auto roster = *outside->MakeWriter<roster::RosterEntry>();
+  roster::RosterEntry entry;
+  entry.body_id = BodyId{1};
+  entry.sensors = {{SensorUid{10}, body::Segment::kHead}};
+  ASSERT_TRUE(roster->Write(entry).ok());
+  const auto marg = *outside->MakeWriter<sensing::MargSample>();
+  const auto frames = *outside->MakeWriter<sensing::MargFrame>();
+  const auto orientations = *outside->MakeWriter<sensing::FusedOrientation>();
+
+  sensing::MargSample sample;
+  sample.sensor_uid = SensorUid{10};
+  sample.accel_m_s2.z() = 9.81F;
+  sample.mag_tesla = {0.0F, 2e-5F, -4e-5F};
+  sensing::MargFrame frame;
+  frame.body_id = BodyId{1};
+  frame.samples = {sample};
+  sensing::FusedOrientation orientation;
+  orientation.sensor_uid = SensorUid{10};
+  std::uint64_t allocations_at_start = 0;
+  for (std::uint32_t i = 1; i <= 1'000; ++i) {
+    if (i == 101) {
+      allocations_at_start = g_allocations;
+    }
+    sample.sequence = 2 * i - 1;
+    sample.measured_at = clock.Now();
+    ASSERT_TRUE(marg->Write(sample).ok());
+    clock.Advance(std::chrono::milliseconds(5));
+    frame.samples[0].sequence = 2 * i;
+    frame.samples[0].measured_at = clock.Now();
+    ASSERT_TRUE(frames->Write(frame).ok());
+    ASSERT_TRUE(frames->Write(frame).ok());  // refused as a duplicate
+    orientation.sequence = i;
+    orientation.measured_at = clock.Now();
+    ASSERT_TRUE(orientations->Write(orientation).ok());
+    clock.Advance(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(g_allocations, allocations_at_start);
+  EXPECT_EQ(states, 1'000U * 3U * 2U);
+  EXPECT_EQ(service.counters().verdicts[SampleVerdict::kRejectedDuplicate], 1'000U);
+}
+
+}  // namespace
+}  // namespace limbcast::fusion
