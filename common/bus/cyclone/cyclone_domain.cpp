@@ -19,7 +19,7 @@ constexpr std::uint32_t kFirstUnicastOffset = 10;
 // So many processes of one host may join a domain (the next one would use another domain's ports);
 constexpr std::uint32_t kMaxParticipantIndex = 119;
 // those with a low index are called, the others call. Each port costs a packet each interval.
-constexpr std::uint32_t kCalledOnThisHost = 64;
+constexpr std::uint32_t kCalledOnThisHost = 40;
 constexpr std::uint32_t kCalledOnOtherHosts = 16;
 
 bool IsAddress(const std::string& text) {

@@ -20,8 +20,8 @@ TEST(CycloneDomainXmlTest, LoopbackNeitherLeavesTheHostNorUsesMulticast) {
   EXPECT_TRUE(Contains(xml, "<SPDPInterval>200ms</SPDPInterval>")) << xml;
   // Domain 2: ports from 7400 + 2 * 250 + 10.
   EXPECT_TRUE(Contains(xml, "<Peer address=\"127.0.0.1:7910\"/>")) << xml;
-  EXPECT_TRUE(Contains(xml, "<Peer address=\"127.0.0.1:8036\"/>")) << xml;
-  EXPECT_FALSE(Contains(xml, "127.0.0.1:8038")) << xml;
+  EXPECT_TRUE(Contains(xml, "<Peer address=\"127.0.0.1:7988\"/>")) << xml;
+  EXPECT_FALSE(Contains(xml, "127.0.0.1:7990")) << xml;
 }
 
 TEST(CycloneDomainXmlTest, LanLetsTheLibraryChooseAndCallsTheNamedPeers) {
