@@ -16,6 +16,14 @@ using bus::BusEvent;
 using bus::BusEventKind;
 using ::testing::HasSubstr;
 
+BusEvent OnMarg(BusEventKind kind, std::int64_t count) {
+  BusEvent event;
+  event.kind = kind;
+  event.topic = "marg";
+  event.count = count;
+  return event;
+}
+
 class BusEventsTest : public ::testing::Test {
  protected:
   BusEventsTest() : previous_(spdlog::default_logger()) {
@@ -46,9 +54,9 @@ class BusEventsTest : public ::testing::Test {
 
 TEST_F(BusEventsTest, CountsEventsByKindAndLostSamplesByTheirNumber) {
   const bus::BusEventHandler handler = events_.handler();
-  handler({.kind = BusEventKind::kMatched, .topic = "marg", .count = 3});
-  handler({.kind = BusEventKind::kSampleLost, .topic = "marg", .count = 7});
-  handler({.kind = BusEventKind::kSampleLost, .topic = "marg", .count = 2});
+  handler(OnMarg(BusEventKind::kMatched, 3));
+  handler(OnMarg(BusEventKind::kSampleLost, 7));
+  handler(OnMarg(BusEventKind::kSampleLost, 2));
   EXPECT_EQ(events_.count(BusEventKind::kMatched), 1U);
   EXPECT_EQ(Value("bus.matched"), 1.0);
   EXPECT_EQ(Value("bus.sample_lost"), 9.0);
@@ -70,17 +78,17 @@ TEST_F(BusEventsTest, LogsOneNamedLineForAnEventAndOnlyWhenAsked) {
 }
 
 TEST_F(BusEventsTest, ALostWriterIsTheLastErrorUntilOneIsBack) {
-  events_.Note({.kind = BusEventKind::kLivelinessLost, .topic = "marg", .count = 0});
+  events_.Note(OnMarg(BusEventKind::kLivelinessLost, 0));
   events_.Report(health_);
   EXPECT_EQ(health_.last_error, "bus: liveliness_lost on marg (reader, now 0)");
-  events_.Note({.kind = BusEventKind::kLivelinessGained, .topic = "marg", .count = 1});
+  events_.Note(OnMarg(BusEventKind::kLivelinessGained, 1));
   health_ = {};
   events_.Report(health_);
   EXPECT_EQ(health_.last_error, "");
 }
 
 TEST_F(BusEventsTest, AnErrorOfTheServiceItselfGoesFirst) {
-  events_.Note({.kind = BusEventKind::kLivelinessLost, .topic = "marg", .count = 0});
+  events_.Note(OnMarg(BusEventKind::kLivelinessLost, 0));
   health_.last_error = "no device";
   events_.Report(health_);
   EXPECT_EQ(health_.last_error, "no device");
@@ -91,7 +99,7 @@ TEST_F(BusEventsTest, AFloodIsCountedInFullAndLoggedInPart) {
   for (int t = 0; t < 2; ++t) {
     threads.emplace_back([this] {
       for (int i = 0; i < 500; ++i) {
-        events_.Note({.kind = BusEventKind::kMalformed, .topic = "marg", .count = 1});
+        events_.Note(OnMarg(BusEventKind::kMalformed, 1));
       }
     });
   }
