@@ -21,7 +21,8 @@ template <typename T>
 struct ReaderHandler {
   /// `value` lives only during the call; its containers are reused, so copy what is kept.
   std::function<void(const T& value, const SampleInfo& info)> on_sample;
-  /// Only the key fields of `key` mean something. May be empty.
+  /// An instance that on_sample told of was disposed. Only the key fields of `key` mean something.
+  /// May be empty.
   std::function<void(const T& key)> on_disposed;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 #include "common/bus/cyclone/cyclone_listener.hpp"
@@ -91,6 +92,7 @@ class CycloneReader final : public Reader<T> {
       events_.Malformed(decoded.error().message);
       return;
     }
+    known_.insert(Codec<T>::Key(value_));
     events_.Sample();
     if (handler_.on_sample) {
       handler_.on_sample(value_, info);
@@ -101,6 +103,9 @@ class CycloneReader final : public Reader<T> {
     if (!Codec<T>::DeserializeKey(bytes, wire_) || !Codec<T>::DecodeKey(wire_, value_)) {
       events_.Malformed("dispose with a key that is none");
       return;
+    }
+    if (known_.erase(Codec<T>::Key(value_)) == 0) {
+      return;  // what was never heard of is nobody's business
     }
     events_.Disposed();
     if (handler_.on_disposed) {
@@ -116,6 +121,7 @@ class CycloneReader final : public Reader<T> {
   std::array<dds_sample_info_t, kBatch> infos_{};
   typename Codec<T>::Wire wire_;
   T value_;
+  std::unordered_set<InstanceKey> known_;  // instances heard of and not disposed
   dds_entity_t reader_ = 0;
 };
 

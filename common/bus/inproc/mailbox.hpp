@@ -5,11 +5,13 @@
 #include <deque>
 #include <mutex>
 #include <thread>
+#include <unordered_set>
 #include <utility>
 
 #include "common/base/expects.hpp"
 #include "common/bus/endpoint_events.hpp"
 #include "common/bus/reader.hpp"
+#include "common/bus/wire/codec.hpp"
 
 namespace limbcast::bus::inproc {
 
@@ -93,12 +95,17 @@ class Mailbox {
   }
 
   void Handle(const T& value, const SampleInfo& info, bool disposed) {
+    const InstanceKey key = Codec<T>::Key(value);
     if (disposed) {
+      if (known_.erase(key) == 0) {
+        return;  // what was never heard of is nobody's business
+      }
       events_.Disposed();
       if (handler_.on_disposed) {
         handler_.on_disposed(value);
       }
     } else {
+      known_.insert(key);
       events_.Sample();
       if (handler_.on_sample) {
         handler_.on_sample(value, info);
@@ -108,7 +115,8 @@ class Mailbox {
 
   const ReaderHandler<T> handler_;
   EndpointEvents& events_;
-  std::mutex mutex_;  // guards the rest; never held while the handler runs
+  std::unordered_set<InstanceKey> known_;  // instances heard of; used by the running call only
+  std::mutex mutex_;                       // guards what follows; never held while the handler runs
   std::condition_variable idle_;
   std::deque<Item> queue_;
   bool running_ = false;

@@ -104,6 +104,8 @@ TEST_F(InprocBusTest, ADisposedInstanceIsToldAndForgotten) {
   ASSERT_TRUE(writer->Write({.body_id = {1}}));
   ASSERT_TRUE(writer->Write({.body_id = {2}}));
   ASSERT_TRUE(writer->Dispose({.body_id = {1}}));
+  ASSERT_TRUE(writer->Dispose({.body_id = {1}}));  // gone already
+  ASSERT_TRUE(writer->Dispose({.body_id = {3}}));  // never heard of
   EXPECT_EQ(disposed, std::vector<std::uint32_t>{1});
   EXPECT_EQ((*reader)->counters().disposed, 1U);
   std::vector<RosterEntry> late;
