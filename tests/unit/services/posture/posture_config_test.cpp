@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/service/service_command_line.hpp"
+
 namespace limbcast::posture {
 namespace {
 
@@ -74,6 +76,28 @@ TEST(PostureConfigTest, ValidateChecksWhatCodeSets) {
   config = {};
   config.output_rate_hz = 0.5;
   EXPECT_FALSE(Validate(config).ok());
+}
+
+TEST(PostureConfigTest, TheShippedFileSaysTheDefaults) {
+  const auto file =
+      config::ConfigFile::Load(std::string(LIMBCAST_SOURCE_DIR) + "/deploy/config/posture.toml");
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  const PostureConfig shipped = ReadPostureConfig(file->Get("posture"));
+  (void)service::ReadBusConfig(file->Get("bus"));
+  EXPECT_TRUE(file->Finish().ok()) << file->Finish().error().message;
+  const PostureConfig defaults;
+  EXPECT_EQ(shipped.workers, defaults.workers);
+  EXPECT_EQ(shipped.tick_deadline_s, defaults.tick_deadline_s);
+  EXPECT_EQ(shipped.output_rate_hz, defaults.output_rate_hz);
+  EXPECT_EQ(shipped.max_extrapolation_s, defaults.max_extrapolation_s);
+  EXPECT_EQ(shipped.missing_after_s, defaults.missing_after_s);
+  EXPECT_EQ(shipped.still_window_s, defaults.still_window_s);
+  EXPECT_EQ(shipped.still_limit_rad, defaults.still_limit_rad);
+  EXPECT_EQ(shipped.body_height_m, defaults.body_height_m);
+  EXPECT_EQ(shipped.segments, defaults.segments);
+  EXPECT_EQ(shipped.joint_limits, defaults.joint_limits);
+  EXPECT_EQ(shipped.joint_softness_rad, defaults.joint_softness_rad);
+  EXPECT_EQ(shipped.state_dir, defaults.state_dir);
 }
 
 }  // namespace
