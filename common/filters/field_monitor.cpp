@@ -12,13 +12,13 @@ constexpr double kMostDeviation = 10.0;  // so that one absurd reading is forgot
 
 }  // namespace
 
-void FieldMonitor::Update(const Eigen::Vector3d& mag_in_earth, const Eigen::Vector3d& reference,
-                          double dt_s) {
-  const double norm_error = mag_in_earth.norm() - reference.norm();
-  const double vertical_error = mag_in_earth.z() - reference.z();
+void FieldMonitor::Update(double norm, double vertical, double reference_vertical, double dt_s) {
+  const double norm_error = norm - 1.0;
+  const double vertical_error = vertical - reference_vertical;
   const double deviation = std::min(
       std::sqrt(norm_error * norm_error + vertical_error * vertical_error), kMostDeviation);
-  state_.mean_deviation += dt_s / (kAverage_s + dt_s) * (deviation - state_.mean_deviation);
+  state_.mean_deviation +=
+      std::min(dt_s * (1.0 / kAverage_s), 1.0) * (deviation - state_.mean_deviation);
 }
 
 MagneticState FieldMonitor::magnetic_state() const {

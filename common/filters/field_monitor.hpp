@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "common/base/tracking.hpp"
 
 namespace limbcast::filters {
@@ -16,9 +14,10 @@ struct FieldMonitorState {
 /// Thread-compatible.
 class FieldMonitor {
  public:
-  /// @param mag_in_earth  field turned by the current estimate, in units of the reference norm.
-  /// @param reference     in the same unit, norm 1.
-  void Update(const Eigen::Vector3d& mag_in_earth, const Eigen::Vector3d& reference, double dt_s);
+  /// @param norm                length of the field, in units of the reference field.
+  /// @param vertical            its upward part by the current estimate, same unit.
+  /// @param reference_vertical  upward part of the reference field.
+  void Update(double norm, double vertical, double reference_vertical, double dt_s);
   [[nodiscard]] MagneticState magnetic_state() const;
   void Clear() { state_ = {}; }
 

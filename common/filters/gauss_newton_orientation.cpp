@@ -7,6 +7,7 @@
 
 #include "common/filters/filter_constants.hpp"
 #include "common/filters/filter_state_codec.hpp"
+#include "common/filters/gauss_newton_kernel.hpp"
 #include "common/filters/gauss_newton_step.hpp"
 #include "common/math/rotation.hpp"
 
@@ -19,6 +20,8 @@ constexpr std::uint32_t kStateVersion = 1;
 constexpr double kGainWithNull_per_s = 0.04;
 constexpr double kGainWithoutNull_per_s = 0.3;
 constexpr double kEulerBelow_rad = 0.02;
+constexpr double kFullGain_per_s = 1e3;  // more than any rate: one reading is everything
+constexpr double kNewtonWithin = 1e-3;
 constexpr int kMeasurementOnlySteps = 3;  // suffice from the previous estimate
 constexpr double kMagneticUnusedAfter_s = 1.0;
 
@@ -41,6 +44,64 @@ constexpr std::array<SettingField<GaussNewtonConfig>, 7> kFields = {
     Whole<&GaussNewtonConfig::iterations>("iterations", 1.0, 20.0),
     Number<&GaussNewtonConfig::init_time_s>("init_time_s", 0.0, 10.0),
 };
+
+kernel::Quaternion<double> Plain(const Eigen::Quaterniond& q) {
+  return {q.w(), q.x(), q.y(), q.z()};
+}
+kernel::Vector<double> Plain(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+[[gnu::always_inline]] inline kernel::Quaternion<double> Normalised(
+    const kernel::Quaternion<double>& q) {
+  const double norm2 = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  if (std::abs(norm2 - 1.0) > kNewtonWithin) {
+    const double s = 1.0 / std::sqrt(norm2);
+    return {q.w * s, q.x * s, q.y * s, q.z * s};
+  }
+  return kernel::NormalisedNearOne(q);
+}
+
+// The two halves of a sample. Inlined, so that the quaternion stays in registers: through memory,
+// numbers stored one by one and loaded in pairs would wait for each other.
+[[gnu::always_inline]] inline kernel::Quaternion<double> Integrated(
+    const GaussNewtonConfig& config, const kernel::Quaternion<double>& q,
+    const Eigen::Vector3d& angle_rad) {
+  const bool exponential = config.integration == RateIntegration::kExponential ||
+                           (config.integration == RateIntegration::kAuto &&
+                            angle_rad.squaredNorm() > kEulerBelow_rad * kEulerBelow_rad);
+  if (exponential) {
+    return Plain(Eigen::Quaterniond(q.w, q.x, q.y, q.z) * math::ExpSO3(angle_rad));
+  }
+  return Normalised(
+      kernel::TimesOnePlus(q, {0.5 * angle_rad.x(), 0.5 * angle_rad.y(), 0.5 * angle_rad.z()}));
+}
+
+[[gnu::always_inline]] inline kernel::Quaternion<double> Corrected(
+    const GaussNewtonConfig& config, const Eigen::Vector3d& reference_field,
+    kernel::Quaternion<double> q, const GatedSample& sample, bool use_field, double gain,
+    int iterations) {
+  const double rho = use_field ? config.rho : 0.0;
+  const auto h0 = kernel::Scaled(Plain(sample.accel_m_s2), 1.0 / sample.accel_m_s2.norm());
+  const auto b0 = use_field ? kernel::Scaled(Plain(sample.mag_tesla), 1.0 / sample.mag_tesla.norm())
+                            : kernel::Vector<double>{0.0, 0.0, 0.0};
+  const double north = reference_field.y();
+  const double up = reference_field.z();
+  for (int i = 0; i < iterations; ++i) {
+    if (config.form == GaussNewtonForm::kFull4x4) {
+      const Eigen::Vector4d dq =
+          gain * FullStep(Eigen::Quaterniond(q.w, q.x, q.y, q.z), Eigen::Vector3d::UnitZ(),
+                          reference_field, {h0.x, h0.y, h0.z}, {b0.x, b0.y, b0.z}, rho);
+      q = Normalised({q.w + dq[0], q.x + dq[1], q.y + dq[2], q.z + dq[3]});
+      continue;
+    }
+    const auto h = kernel::UpInSensor(q);
+    const auto n = kernel::NorthInSensor(q);
+    const kernel::Vector<double> b{north * n.x + up * h.x, north * n.y + up * h.y,
+                                   north * n.z + up * h.z};
+    q = Normalised(kernel::TimesOnePlus(
+        q, kernel::Scaled(kernel::ReducedStep(h, b, h0, b0, rho * rho), gain)));
+  }
+  return q;
+}
 
 }  // namespace
 
@@ -84,22 +145,25 @@ SampleVerdict GaussNewtonOrientation::Update(const sensing::MargSample& sample) 
     return UpdateStart(gated);
   }
 
-  const bool measurement_only = gated.gyro_absent() && !gated.gyro_held;
-  Integrate((gated.gyro_rad_s - (measurement_only ? Eigen::Vector3d::Zero().eval()
-                                                  : state_.estimate.gyro_bias_rad_s)) *
-            gated.dt_s);
   bool use_field = gated.mag_valid && config_.rho > 0.0;
   if (use_field && !state_.has_field) {
     AdoptField(state_.estimate.q_earth_sensor * gated.mag_tesla);
     use_field = state_.has_field;
   }
-  const double gain = measurement_only ? 1.0 : Gain(gated.dt_s);
-  if (gated.accel_valid) {
-    Correct(gated, use_field, gain,
-            measurement_only ? std::max(config_.iterations, kMeasurementOnlySteps)
-                             : config_.iterations);
+  const bool measurement_only = gated.gyro_absent() && !gated.gyro_held;
+  auto q = Plain(state_.estimate.q_earth_sensor);
+  if (!measurement_only) {
+    q = Integrated(config_, q, (gated.gyro_rad_s - state_.estimate.gyro_bias_rad_s) * gated.dt_s);
   }
-  SpreadVariance(gated, use_field, gain);
+  const double rate_per_s = measurement_only ? kFullGain_per_s : GainRate_per_s();
+  const double gain = measurement_only ? 1.0 : std::min(rate_per_s * gated.dt_s, 1.0);
+  if (gated.accel_valid) {
+    q = Corrected(config_, state_.reference_field, q, gated, use_field, gain,
+                  measurement_only ? std::max(config_.iterations, kMeasurementOnlySteps)
+                                   : config_.iterations);
+  }
+  state_.estimate.q_earth_sensor = Eigen::Quaterniond(q.w, q.x, q.y, q.z);
+  SpreadVariance(gated, use_field, gain, rate_per_s);
   Report(gated, use_field);
   return gated.accel_valid ? SampleVerdict::kFused : SampleVerdict::kPredictedOnly;
 }
@@ -132,7 +196,7 @@ SampleVerdict GaussNewtonOrientation::UpdateStart(const GatedSample& sample) {
   state_.starting = false;
   state_.var_tilt_rad2 = kStartVariance_rad2;
   state_.var_heading_rad2 = kStartVariance_rad2;
-  SpreadVariance(sample, state_.has_field, 0.0);
+  SpreadVariance(sample, state_.has_field, 0.0, 0.0);
   Report(sample, state_.has_field && sample.mag_valid);
   return SampleVerdict::kFused;
 }
@@ -179,93 +243,64 @@ void GaussNewtonOrientation::CalibrateNull(const GatedSample& sample) {
   }
 }
 
-double GaussNewtonOrientation::Gain(double dt_s) const {
-  const double automatic = state_.null_known ? kGainWithNull_per_s : kGainWithoutNull_per_s;
-  return std::min((config_.k_per_s > 0.0 ? config_.k_per_s : automatic) * dt_s, 1.0);
-}
-
-void GaussNewtonOrientation::Integrate(const Eigen::Vector3d& angle_rad) {
-  Eigen::Quaterniond& q = state_.estimate.q_earth_sensor;
-  const bool exponential = config_.integration == RateIntegration::kExponential ||
-                           (config_.integration == RateIntegration::kAuto &&
-                            angle_rad.squaredNorm() > kEulerBelow_rad * kEulerBelow_rad);
-  if (exponential) {
-    q = q * math::ExpSO3(angle_rad);
-    return;
+double GaussNewtonOrientation::GainRate_per_s() const {
+  if (config_.k_per_s > 0.0) {
+    return config_.k_per_s;
   }
-  const Eigen::Quaterniond step(1.0, 0.5 * angle_rad.x(), 0.5 * angle_rad.y(), 0.5 * angle_rad.z());
-  q = (q * step).normalized();
-}
-
-void GaussNewtonOrientation::Correct(const GatedSample& sample, bool use_field, double gain,
-                                     int iterations) {
-  Eigen::Quaterniond& q = state_.estimate.q_earth_sensor;
-  const double rho = use_field ? config_.rho : 0.0;
-  const Eigen::Vector3d h0_S = sample.accel_m_s2.normalized();
-  const Eigen::Vector3d b0_S =
-      use_field ? sample.mag_tesla.normalized() : Eigen::Vector3d::Zero().eval();
-  for (int i = 0; i < iterations; ++i) {
-    if (config_.form == GaussNewtonForm::kFull4x4) {
-      const Eigen::Vector4d dq =
-          gain * FullStep(q, Eigen::Vector3d::UnitZ(), state_.reference_field, h0_S, b0_S, rho);
-      q = Eigen::Quaterniond(q.w() + dq[0], q.x() + dq[1], q.y() + dq[2], q.z() + dq[3])
-              .normalized();
-      continue;
-    }
-    const Eigen::Matrix3d R_ES = q.toRotationMatrix();
-    const Eigen::Vector3d h_S = R_ES.row(2);
-    const Eigen::Vector3d b_S =
-        state_.reference_field.y() * R_ES.row(1).transpose() + state_.reference_field.z() * h_S;
-    const Eigen::Vector3d dv = gain * ReducedStep(h_S, b_S, h0_S, b0_S, rho);
-    q = (q * Eigen::Quaterniond(1.0, dv.x(), dv.y(), dv.z())).normalized();
-  }
+  return state_.null_known ? kGainWithNull_per_s : kGainWithoutNull_per_s;
 }
 
 // var ← (1 − α)² var + α² r/dt + growth: what the same gain would do to a scalar error.
-void GaussNewtonOrientation::SpreadVariance(const GatedSample& sample, bool use_field,
-                                            double gain) {
-  const double dt_s = std::max(sample.dt_s, 1e-6);
+void GaussNewtonOrientation::SpreadVariance(const GatedSample& sample, bool use_field, double gain,
+                                            double rate_per_s) {
+  const double dt_s = sample.dt_s;
   double growth = kGyroNoise_rad2_s * dt_s;
   if (sample.gap) {
     growth += kUnseenRate_rad_s * kUnseenRate_rad_s * dt_s * dt_s;
   } else if (sample.gyro_absent() || sample.gyro_saturated) {
     growth += kUnseenRate_rad_s * kUnseenRate_rad_s * dt_s;
   }
-  const double gain_tilt = sample.accel_valid ? gain : 0.0;
-  const double gain_heading = sample.accel_valid && use_field ? gain : 0.0;
-  // Averaging never makes one reading worse than the density over a tenth of a second.
-  const double averaging_s = std::max(dt_s, 0.1 * gain);
-  const auto spread = [averaging_s, growth](double var, double gain_axis, double noise_rad2_s) {
-    const double kept = (1.0 - gain_axis) * (1.0 - gain_axis) * var;
-    return std::min(kept + gain_axis * gain_axis * noise_rad2_s / averaging_s + growth,
-                    kMostVariance_rad2);
+  const auto spread = [growth](double var, double kept, double noise_rad2) {
+    return std::min(kept * kept * var + noise_rad2 + growth, kMostVariance_rad2);
   };
-  state_.var_tilt_rad2 = spread(state_.var_tilt_rad2, gain_tilt, kTiltNoise_rad2_s);
-  state_.var_heading_rad2 = spread(state_.var_heading_rad2, gain_heading, kHeadingNoise_rad2_s);
+  // α²/dt = α·k. One reading never counts for worse than the density over a tenth of a second.
+  const double weight_per_s = sample.accel_valid ? gain * std::min(rate_per_s, 10.0) : 0.0;
+  const double kept = sample.accel_valid ? 1.0 - gain : 1.0;
+  state_.var_tilt_rad2 = spread(state_.var_tilt_rad2, kept, weight_per_s * kTiltNoise_rad2_s);
+  state_.var_heading_rad2 =
+      use_field ? spread(state_.var_heading_rad2, kept, weight_per_s * kHeadingNoise_rad2_s)
+                : spread(state_.var_heading_rad2, 1.0, 0.0);
 }
 
 void GaussNewtonOrientation::Report(const GatedSample& sample, bool use_field) {
   FilterEstimate& estimate = state_.estimate;
-  const Eigen::Matrix3d R_ES = estimate.q_earth_sensor.toRotationMatrix();
+  const auto q = Plain(estimate.q_earth_sensor);
+  const auto up_S = kernel::UpInSensor(q);
   if (use_field) {
-    const Eigen::Vector3d field_E = R_ES * sample.mag_tesla * state_.inverse_field_tesla;
-    state_.field.Update(field_E, state_.reference_field, sample.dt_s);
+    const auto mag = Plain(sample.mag_tesla);
+    const double scale = state_.inverse_field_tesla;
+    state_.field.Update(scale * std::sqrt(kernel::Dot(mag, mag)), scale * kernel::Dot(up_S, mag),
+                        state_.reference_field.z(), sample.dt_s);
   }
-  const bool field_gone = !state_.has_field || state_.gate.mag_absent_s() > kMagneticUnusedAfter_s;
+  const double mag_absent_s = state_.gate.mag_absent_s();
+  const bool field_gone = !state_.has_field || mag_absent_s > kMagneticUnusedAfter_s;
   estimate.magnetic_state = field_gone ? MagneticState::kUnused : state_.field.magnetic_state();
-  estimate.heading = state_.has_field && state_.gate.mag_absent_s() <= kMagneticMemory_s
+  estimate.heading = state_.has_field && mag_absent_s <= kMagneticMemory_s
                          ? HeadingReference::kMagnetic
                          : HeadingReference::kArbitrary;
   estimate.degraded = sample.gap || sample.gyro_saturated || !sample.accel_valid ||
                       (sample.gyro_absent() && state_.gate.gyro_seen()) ||
                       (state_.has_field && field_gone);
-  estimate.w_earth_sensor_in_sensor_rad_s =
-      sample.gyro_measured || sample.gyro_held
-          ? Eigen::Vector3d(sample.gyro_rad_s - estimate.gyro_bias_rad_s)
-          : Eigen::Vector3d::Zero();
+  if (sample.gyro_measured || sample.gyro_held) {
+    estimate.w_earth_sensor_in_sensor_rad_s = sample.gyro_rad_s - estimate.gyro_bias_rad_s;
+  } else {
+    estimate.w_earth_sensor_in_sensor_rad_s.setZero();
+  }
   if (sample.accel_valid) {
-    estimate.free_accel_in_earth_m_s2 =
-        R_ES * sample.accel_m_s2 - Eigen::Vector3d(0.0, 0.0, kGravity_m_s2);
+    const auto accel = Plain(sample.accel_m_s2);
+    estimate.free_accel_in_earth_m_s2 = {kernel::Dot(kernel::EastInSensor(q), accel),
+                                         kernel::Dot(kernel::NorthInSensor(q), accel),
+                                         kernel::Dot(up_S, accel) - kGravity_m_s2};
   } else {
     estimate.free_accel_in_earth_m_s2.setZero();
   }

@@ -97,11 +97,9 @@ class GaussNewtonOrientation final : public OrientationFilter {
   SampleVerdict UpdateStart(const GatedSample& sample);
   void AdoptField(const Eigen::Vector3d& mag_in_earth_tesla);
   void CalibrateNull(const GatedSample& sample);
-  void Integrate(const Eigen::Vector3d& angle_rad);
-  void Correct(const GatedSample& sample, bool use_field, double gain, int iterations);
-  void SpreadVariance(const GatedSample& sample, bool use_field, double gain);
+  void SpreadVariance(const GatedSample& sample, bool use_field, double gain, double rate_per_s);
   void Report(const GatedSample& sample, bool use_field);
-  [[nodiscard]] double Gain(double dt_s) const;
+  [[nodiscard]] double GainRate_per_s() const;
 
   GaussNewtonConfig config_;
   State state_;

@@ -1,6 +1,8 @@
 // Notation: E earth, S sensor; q_ES turns S into E. h, b computed and h₀, b₀ measured vectors in S.
 #include "common/filters/gauss_newton_step.hpp"
 
+#include "common/filters/gauss_newton_kernel.hpp"
+
 namespace limbcast::filters {
 namespace {
 
@@ -58,34 +60,18 @@ Eigen::Vector4d FullStep(const Eigen::Quaterniond& q_ES, const Eigen::Vector3d& 
 }
 
 Eigen::Vector3d SolveSymmetric3(const Eigen::Matrix3d& A, const Eigen::Vector3d& c) {
-  const double a = A(0, 0);
-  const double b = A(0, 1);
-  const double d = A(0, 2);
-  const double e = A(1, 1);
-  const double f = A(1, 2);
-  const double g = A(2, 2);
-  const double c00 = e * g - f * f;
-  const double c01 = d * f - b * g;
-  const double c02 = b * f - d * e;
-  const double c11 = a * g - d * d;
-  const double c12 = b * d - a * f;
-  const double c22 = a * e - b * b;
-  const double inverse_det = 1.0 / (a * c00 + b * c01 + d * c02);
-  return inverse_det * Eigen::Vector3d(c00 * c.x() + c01 * c.y() + c02 * c.z(),
-                                       c01 * c.x() + c11 * c.y() + c12 * c.z(),
-                                       c02 * c.x() + c12 * c.y() + c22 * c.z());
+  const auto x = kernel::SolveSymmetric<double>(A(0, 0), A(0, 1), A(0, 2), A(1, 1), A(1, 2),
+                                                A(2, 2), {c.x(), c.y(), c.z()});
+  return {x.x, x.y, x.z};
 }
 
 Eigen::Vector3d ReducedStep(const Eigen::Vector3d& h_S, const Eigen::Vector3d& b_S,
                             const Eigen::Vector3d& h0_S, const Eigen::Vector3d& b0_S, double rho) {
-  const double rho2 = rho * rho;
-  // det A = (1+ρ²)·ρ²·|h × b|² for unit vectors.
-  const double det = (1.0 + rho2) * rho2 * h_S.cross(b_S).squaredNorm();
-  const double diagonal = 1.0 + rho2 + (det < kSingularBelow ? kLambda : 0.0);
-  Eigen::Matrix3d A = -h_S * h_S.transpose() - (rho2 * b_S) * b_S.transpose();
-  A.diagonal().array() += diagonal;
-  const Eigen::Vector3d c = h0_S.cross(h_S) + rho2 * b0_S.cross(b_S);
-  return 0.5 * SolveSymmetric3(A, c);
+  const auto plain = [](const Eigen::Vector3d& v) {
+    return kernel::Vector<double>{v.x(), v.y(), v.z()};
+  };
+  const auto dv = kernel::ReducedStep(plain(h_S), plain(b_S), plain(h0_S), plain(b0_S), rho * rho);
+  return {dv.x, dv.y, dv.z};
 }
 
 }  // namespace limbcast::filters

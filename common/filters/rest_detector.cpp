@@ -1,5 +1,6 @@
 #include "common/filters/rest_detector.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 namespace limbcast::filters {
@@ -18,7 +19,7 @@ void RestDetector::Update(const Eigen::Vector3d& gyro_rad_s, const Eigen::Vector
     state_.low_accel_m_s2 = accel_m_s2;
     state_.started = true;
   }
-  const double gain = dt_s / (kLowPass_s + dt_s);
+  const double gain = std::min(dt_s * (1.0 / kLowPass_s), 1.0);
   state_.low_gyro_rad_s += gain * (gyro_rad_s - state_.low_gyro_rad_s);
   state_.low_accel_m_s2 += gain * (accel_m_s2 - state_.low_accel_m_s2);
   constexpr double kGyro2 = kStillGyro_rad_s * kStillGyro_rad_s;

@@ -11,7 +11,7 @@ namespace {
 
 using sensing::MargFlag;
 
-constexpr double kFirstNominal_s = 1.0;         // slower first steps are taken for a gap
+constexpr double kFirstNominal_s = 1.0;          // slower first steps are taken for a gap
 constexpr std::uint32_t kNominalAverage = 32;    // steps
 constexpr std::uint32_t kRunThatMovesTime = 20;  // old but ordered samples before time jumps back
 constexpr double kGapTeachesNominal = 1.02;      // a lower rate is learned from its "gaps"
@@ -67,7 +67,9 @@ void SampleGate::LearnNominal(double dt_s, bool gap) {
     state_.nominal_dt_s *= kGapTeachesNominal;
   } else {
     state_.steps = std::min(state_.steps + 1, kNominalAverage);
-    state_.nominal_dt_s += (dt_s - state_.nominal_dt_s) / state_.steps;
+    const double gain =
+        state_.steps == kNominalAverage ? 1.0 / kNominalAverage : 1.0 / state_.steps;
+    state_.nominal_dt_s += gain * (dt_s - state_.nominal_dt_s);
   }
 }
 
