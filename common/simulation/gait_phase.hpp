@@ -4,10 +4,9 @@
 
 namespace limbcast::simulation {
 
-/// Numbers of one step, in steps: step k lifts its foot at k + kFirstLift and lands it kSwing
-/// later. Even steps are right.
-inline constexpr double kFirstLift = 0.5;
-inline constexpr double kSwing = 0.8;  ///< 40 % of a stride of two steps (Perry, "Gait Analysis")
+/// Part of a step that a foot is in the air: 40 % of a stride of two steps (Perry, "Gait
+/// Analysis").
+inline constexpr double kSwing = 0.8;
 
 /// Where in its gait a person is. All zero and still outside of kWalk and kTurn.
 struct GaitPhase {

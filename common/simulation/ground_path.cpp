@@ -78,10 +78,13 @@ MovingFloorPose GroundPath::At(const Jet& u_m) const {
   const auto after = std::upper_bound(cells_.begin() + 1, cells_.end(), u_m.value,
                                       [](double u, const Cell& cell) { return u < cell.start_m; });
   const Cell& cell = *(after - 1);
-  const auto p_m = Integrate(cell, u_m.value);
+  const double on_path_m = std::clamp(u_m.value, 0.0, length_m_);
+  auto p_m = Integrate(cell, on_path_m);
   const Jet heading_rad = Heading(cell, u_m);
   const double c = std::cos(heading_rad.value);
   const double s = std::sin(heading_rad.value);
+  p_m[0] += (u_m.value - on_path_m) * c;
+  p_m[1] += (u_m.value - on_path_m) * s;
   const double rate = u_m.rate;
   const double bend = rate * heading_rad.rate;
   return {{p_m[0], rate * c, u_m.accel * c - bend * s},

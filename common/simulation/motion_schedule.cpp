@@ -59,10 +59,10 @@ Status ValidateGestures(const TimedPhase& timed, std::size_t i) {
 double StepTime_s(double speed_m_s) { return 1.0 / (1.85 * std::sqrt(speed_m_s / 1.1)); }
 
 void PlanSteps(TimedPhase& timed, double wished_duration_s, double step_s) {
-  // Half a step to rise on the toes, and the last foot is flat exactly at the end.
-  timed.steps = std::max(4, static_cast<int>(std::lround(wished_duration_s / step_s - 0.5)));
+  // Time to rise on the toes before the first step, and the last foot is flat exactly at the end.
+  timed.steps = std::max(4, static_cast<int>(std::lround(wished_duration_s / step_s - kFirstLift)));
   timed.step_s = step_s;
-  timed.end_s = timed.start_s + (timed.steps + 0.5) * step_s;
+  timed.end_s = timed.start_s + (timed.steps + kFirstLift) * step_s;
 }
 
 Status PlanWalk(TimedPhase& timed, std::size_t i) {
@@ -202,7 +202,8 @@ Timeline::Place Timeline::At(double t_s) const {
 MovingFloorPose FloorPoseAt(const TimedPhase& phase, const Jet& since_s) {
   const FloorPose& from = phase.from;
   if (phase.phase.kind == PhaseKind::kTurn) {
-    const Jet done = SmoothStep(since_s, 0.5 * phase.step_s, phase.duration_s() - phase.step_s);
+    const Jet done =
+        SmoothStep(since_s, kFirstLift * phase.step_s, phase.duration_s() - phase.step_s);
     return {from.x_m, from.y_m, from.heading_rad + phase.phase.turn_rad * done};
   }
   if (phase.phase.kind != PhaseKind::kWalk) {

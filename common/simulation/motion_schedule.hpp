@@ -68,6 +68,10 @@ struct MotionSchedule {
 /// The first range that is not kept.
 [[nodiscard]] Status Validate(const MotionSchedule& schedule);
 
+/// Step k of a walk or turn (even: right) lifts its foot k + kFirstLift steps after the begin; the
+/// last foot is flat kFirstLift steps after the last whole one.
+inline constexpr double kFirstLift = 0.6;
+
 /// A phase with all that follows from the ones before it.
 struct TimedPhase {
   Phase phase;

@@ -59,7 +59,7 @@ RigidMotion Pelvis(const PersonShape& shape, const Moment& m) {
   if (m.phase.steps > 0) {
     // Low enough to reach the landing foot, and up again over the standing one.
     const double ready_m = height_m.value - shape.ankle_height_m;
-    const double ahead_m = 0.486 * m.phase.step_length_m;
+    const double ahead_m = std::max(0.15, 0.486 * m.phase.step_length_m);
     const double low_m = ready_m - std::sqrt(ready_m * ready_m - ahead_m * ahead_m) + 0.002;
     const double rise_m = std::min(0.039, 0.8 * low_m);
     const Jet& amount = m.gait.amount;

@@ -19,7 +19,7 @@ namespace limbcast::simulation {
 struct PersonMotionConfig {
   MotionSchedule schedule = MakeDefaultSchedule();
   /// The place, and the way, in which the schedule begins; x east, y north.
-  FloorPose start;
+  FloorPose start{};
 };
 
 /// All segments of a person at one instant.
