@@ -213,7 +213,8 @@ FlowControl::Counters FlowControl::counters() const {
   return {.samples_unanswered = samples_.lost(),
           .ticks_unanswered = ticks_.lost(),
           .late_answers = samples_.late(),
-          .link_losses = link_losses_};
+          .link_losses = link_losses_,
+          .link_lost = as_fast_ && link_lost_};
 }
 
 std::uint64_t FlowControl::unanswered(SensorUid uid) const {

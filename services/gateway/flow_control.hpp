@@ -59,6 +59,7 @@ class FlowControl {
     std::uint64_t ticks_unanswered = 0;
     std::uint64_t late_answers = 0;
     std::uint64_t link_losses = 0;
+    bool link_lost = false;  ///< as of the last tick
   };
   [[nodiscard]] Counters counters() const;
   [[nodiscard]] std::uint64_t unanswered(SensorUid uid) const;

@@ -435,8 +435,10 @@ void GatewayService::FillHealth(ServiceHealth& health) {
   add("gauge.max_lag_ms", summary.max_lag_ms);
   if (health.last_error.empty()) {
     health.last_error = summary.error;
-    if (health.last_error.empty() && phase() == Phase::kWaiting && started_) {
+    if (started_ && phase() == Phase::kWaiting) {
       health.last_error = "waiting: " + flow_->Missing();
+    } else if (started_ && flow_->counters().link_lost) {
+      health.last_error = "fusion does not answer: going on in real time";
     }
   }
   health.latencies.push_back(lag_.Take("gateway_lag"));

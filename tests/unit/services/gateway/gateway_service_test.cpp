@@ -160,6 +160,9 @@ TEST_F(GatewayServiceTest, FusionThatDiesOnTheWayStopsTheStreamForOneDeadlineOnl
   Run(110ms);                                 // then it goes on in real time
   EXPECT_NEAR(static_cast<double>(pipeline_.samples.size()), 114.0, 2.0);
   EXPECT_EQ(service_->Summary().link_losses, 1U);
+  ServiceHealth health;
+  service_->FillHealth(health);
+  EXPECT_EQ(health.last_error, "fusion does not answer: going on in real time");
 
   pipeline_.dies_after = 1000;  // it is back: full speed again
   Run(20ms);

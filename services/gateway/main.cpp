@@ -1,0 +1,59 @@
+#include <spdlog/spdlog.h>
+
+#include <cstdlib>
+#include <utility>
+
+#include "common/bus/bus_factory.hpp"
+#include "common/runtime/stop_signal.hpp"
+#include "common/runtime/system_clock.hpp"
+#include "common/runtime/thread_pool.hpp"
+#include "common/service/bus_events.hpp"
+#include "common/service/health_publisher.hpp"
+#include "services/gateway/driver_factory.hpp"
+#include "services/gateway/gateway_command_line.hpp"
+#include "services/gateway/gateway_config.hpp"
+#include "services/gateway/gateway_service.hpp"
+
+int main(int argc, char** argv) {
+  using namespace limbcast;
+  gateway::GatewayCommandLine command;
+  if (const auto status = command.Parse(argc, argv)) return *status;
+  const Result<config::ConfigFile> file = command.LoadSettings();
+  if (!file) return command.Fail(file.error());
+  const gateway::GatewayConfig config = gateway::ReadGatewayConfig(file->Get("gateway"));
+  const gateway::DriverConfigs drivers = gateway::ReadDriverConfigs(*file);
+  const Result<bus::BusConfig> bus_config = command.ReadBus(*file);
+  if (const Status read = file->Finish(); !read) return command.Fail(read.error());
+  if (!bus_config) return command.Fail(bus_config.error());
+  if (const Status valid = gateway::Validate(config); !valid) return command.Fail(valid.error());
+  Result<std::unique_ptr<gateway::Driver>> driver = gateway::MakeDriver(config.driver, drivers);
+  if (!driver) return command.Fail(driver.error());
+  command.StartLog();
+
+  runtime::StopSignal stop_signal;  // SIGINT, SIGTERM, and the end of the data
+  const runtime::SystemClock clock;
+  runtime::ThreadPool worker("gateway", 1);
+  service::BusEvents events;
+  const Result<std::unique_ptr<bus::Bus>> bus = bus::Open(*bus_config, events.handler());
+  if (!bus) return command.Fail(bus.error());
+
+  gateway::GatewayService service(config, std::move(*driver), clock, **bus, worker,
+                                  [&] { stop_signal.Trigger(); });
+  if (const Status started = service.Start(); !started) return command.Fail(started.error());
+  const auto health =
+      service::HealthPublisher::Make("gateway", clock, **bus, [&](ServiceHealth& report) {
+        service.FillHealth(report);
+        events.Report(report);
+      });
+  if (!health) return command.Fail(health.error());
+  spdlog::info("on {}; driver {}", (*bus)->Describe(), config.driver);
+  (*health)->Start();
+  stop_signal.Wait();
+  (*health)->Stop();
+  service.Stop();
+  const gateway::GatewaySummary summary = service.Summary();
+  spdlog::info("{}", gateway::ToText(summary));
+  command.PrintSummary(summary);
+  const Status result = service.result();
+  return result ? EXIT_SUCCESS : command.Fail(result.error());
+}
