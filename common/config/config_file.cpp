@@ -1,136 +1,18 @@
 #include "common/config/config_file.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <set>
 #include <sstream>
 #include <system_error>
 
+#include "common/config/toml_document.hpp"
+
 namespace limbcast::config {
 
-namespace internal {
-
-constexpr std::string_view kOverride = "--set ";
-
-struct Document {
-  std::string name;
-  toml::table root;
-  std::optional<Error> first_error;
-  std::set<const toml::node*> known;  // nodes that somebody asked for
-};
-
-// "fusion.toml:12", or "--set fusion.workers=0" for what the command line put there.
-std::string PlaceOf(const Document& document, const toml::node* node) {
-  if (node == nullptr || node->source().begin.line == 0) {
-    return document.name;
-  }
-  const std::string name = node->source().path == nullptr ? document.name : *node->source().path;
-  return name.starts_with(kOverride) ? name : fmt::format("{}:{}", name, node->source().begin.line);
-}
-
-struct Node {
-  std::shared_ptr<Document> document;
-  toml::table* table = nullptr;  // null: not in the file
-  std::string path;
-
-  [[nodiscard]] std::string PathOf(std::string_view key) const {
-    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-  }
-  [[nodiscard]] toml::node* Find(std::string_view key) const {
-    toml::node* found = table == nullptr ? nullptr : table->get(key);
-    if (found != nullptr) {
-      document->known.insert(found);
-    }
-    return found;
-  }
-  void Fail(const toml::node* at, std::string_view key, std::string_view message) const {
-    if (document->first_error) {
-      return;
-    }
-    const std::string where = PathOf(key);
-    // Messages of other rooms may name the thing themselves.
-    const bool named = message.starts_with(where);
-    document->first_error = Error{ErrorCode::kInvalidArgument,
-                                  fmt::format("{}: {}{}{}", PlaceOf(*document, at),
-                                              named ? "" : where, named ? "" : " ", message)};
-  }
-};
-
-}  // namespace internal
-
-namespace {
-
-// What stands in the file, on one line, for messages.
-std::string TextOf(const toml::node& node) {
-  if (const auto* text = node.as_string()) {
-    return fmt::format("\"{}\"", text->get());
-  }
-  std::ostringstream out;
-  node.visit([&out](const auto& value) { out << value; });
-  std::string result = out.str();
-  std::replace(result.begin(), result.end(), '\n', ' ');
-  return result;
-}
-
-std::optional<Error> FindUnknown(const internal::Document& document, const toml::node& node,
-                                 const std::string& path) {
-  const auto child_error = [&](const toml::node& child,
-                               const std::string& child_path) -> std::optional<Error> {
-    if (!document.known.contains(&child)) {
-      return Error{ErrorCode::kInvalidArgument,
-                   fmt::format("{}: {} is not a known key", internal::PlaceOf(document, &child),
-                               child_path)};
-    }
-    return FindUnknown(document, child, child_path);
-  };
-  // Tables and arrays of tables only: the elements of a list of values belong to their key.
-  if (const auto* table = node.as_table()) {
-    std::vector<std::pair<std::string, const toml::node*>> children;
-    for (const auto& [key, child] : *table) {
-      children.emplace_back(std::string(key.str()), &child);
-    }
-    std::ranges::sort(children, {},
-                      [](const auto& child) { return child.second->source().begin.line; });
-    for (const auto& [key, child] : children) {
-      if (auto error = child_error(*child, path.empty() ? key : path + "." + key)) {
-        return error;
-      }
-    }
-  } else if (const auto* array = node.as_array(); array != nullptr && array->is_array_of_tables()) {
-    for (const toml::node& child : *array) {
-      if (auto error = FindUnknown(document, child, path)) {
-        return error;
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-void Merge(toml::table& into, toml::table& from) {
-  for (auto&& [key, value] : from) {
-    toml::node* existing = into.get(key);
-    if (existing != nullptr && existing->is_table() && value.is_table()) {
-      Merge(*existing->as_table(), *value.as_table());
-    } else {
-      into.insert_or_assign(key, std::move(value));
-    }
-  }
-}
-
-Result<toml::table> ParseToml(std::string_view text, const std::string& name) {
-  try {  // the parser throws; nothing else in this file does
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("{}:{}: {}", name, error.source().begin.line, error.description())};
-  }
-}
-
-}  // namespace
+using internal::TextOf;
 
 // ---------------------------------------------------------------------------------------- Section
 
@@ -369,7 +251,7 @@ Result<ConfigFile> ConfigFile::Load(const std::filesystem::path& path) {
 }
 
 Result<ConfigFile> ConfigFile::Parse(std::string_view text, std::string name) {
-  Result<toml::table> table = ParseToml(text, name);
+  Result<toml::table> table = internal::ParseToml(text, name);
   if (!table) {
     return table.error();
   }
@@ -386,16 +268,16 @@ Status ConfigFile::Override(std::string_view assignment) {
                  fmt::format("--set must be KEY=VALUE, is \"{}\"", assignment)};
   }
   const std::string name = fmt::format("{}{}", internal::kOverride, assignment);
-  Result<toml::table> table = ParseToml(assignment, name);
+  Result<toml::table> table = internal::ParseToml(assignment, name);
   if (!table) {  // a bare word: --set filter.name=tqt
     const std::string quoted =
         fmt::format("{}=\"{}\"", assignment.substr(0, equals), assignment.substr(equals + 1));
-    table = ParseToml(quoted, name);
+    table = internal::ParseToml(quoted, name);
     if (!table) {
       return table.error();
     }
   }
-  Merge(document_->root, *table);
+  internal::Merge(document_->root, *table);
   return Ok();
 }
 
@@ -410,7 +292,7 @@ Status ConfigFile::Finish() const {
   if (document_->first_error) {
     return *document_->first_error;
   }
-  if (auto unknown = FindUnknown(*document_, document_->root, "")) {
+  if (auto unknown = internal::FindUnknown(*document_, document_->root, "")) {
     return *unknown;
   }
   return Ok();
