@@ -10,6 +10,9 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <mutex>
+#include <random>
+#include <set>
 #include <utility>
 
 namespace limbcast::bus::fastdds {
@@ -64,6 +67,27 @@ std::string Resolve(const std::string& host) {
   return text;
 }
 
+// Numbers are used again, so names must not be: a peer that has not yet heard of our last
+// participant's end would take the new one for it.
+void SetUniqueGuidPrefix(DomainParticipantQos& qos) {
+  auto& prefix = qos.wire_protocol().prefix;
+  std::random_device random;
+  for (std::size_t i = 0; i < prefix.size; ++i) {
+    prefix.value[i] = static_cast<eprosima::fastrtps::rtps::octet>(random());
+  }
+  prefix.value[0] = 0x01;  // vendor id of eProsima, DDSI-RTPS 9.3.1.5
+  prefix.value[1] = 0x0F;
+}
+
+struct NumbersInUse {
+  std::mutex mutex;
+  std::set<std::int32_t> numbers;
+};
+NumbersInUse& TheNumbersInUse() {
+  static auto* in_use = new NumbersInUse();  // NOLINT: buses may be static objects
+  return *in_use;
+}
+
 void AddPeer(DomainParticipantQos& qos, const std::string& address) {
   Locator_t locator;  // port 0: the first kPeerPorts discovery ports of the domain
   locator.port = 0;
@@ -100,6 +124,7 @@ Result<DomainParticipantQos> ParticipantQos(const BusConfig& config,
   DomainParticipantQos qos;
   qos.name(config.participant_name);
 
+  SetUniqueGuidPrefix(qos);
   auto udp = std::make_shared<UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBuffer_bytes;
   udp->receiveBufferSize = kSocketBuffer_bytes;
@@ -128,6 +153,20 @@ Result<DomainParticipantQos> ParticipantQos(const BusConfig& config,
   discovery.leaseDuration = Duration_t(10, 0);  // as Cyclone DDS
   discovery.leaseDuration_announcementperiod = loopback ? Duration_t(0.5) : Duration_t(2, 0);
   return qos;
+}
+
+ParticipantNumber::ParticipantNumber() {
+  NumbersInUse& in_use = TheNumbersInUse();
+  const std::lock_guard lock(in_use.mutex);
+  while (!in_use.numbers.insert(value_).second) {
+    ++value_;
+  }
+}
+
+ParticipantNumber::~ParticipantNumber() {
+  NumbersInUse& in_use = TheNumbersInUse();
+  const std::lock_guard lock(in_use.mutex);
+  in_use.numbers.erase(value_);
 }
 
 }  // namespace limbcast::bus::fastdds

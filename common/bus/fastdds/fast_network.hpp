@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <string>
 #include <vector>
@@ -17,5 +18,20 @@ namespace limbcast::bus::fastdds {
 /// and the peers of `config`. `addresses` come from InterfaceAddresses.
 [[nodiscard]] Result<eprosima::fastdds::dds::DomainParticipantQos> ParticipantQos(
     const BusConfig& config, const std::vector<std::string>& addresses);
+
+/// The lowest participant number that this process does not use, until destroyed. It decides the
+/// ports, and peers call only the first 64 of them; the library itself never uses a number twice,
+/// so the 65th bus that a process opened could not be found. Thread-safe.
+class ParticipantNumber {
+ public:
+  ParticipantNumber();
+  ~ParticipantNumber();
+  ParticipantNumber(const ParticipantNumber&) = delete;
+  ParticipantNumber& operator=(const ParticipantNumber&) = delete;
+  [[nodiscard]] std::int32_t value() const { return value_; }
+
+ private:
+  std::int32_t value_ = 0;
+};
 
 }  // namespace limbcast::bus::fastdds

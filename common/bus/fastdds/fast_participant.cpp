@@ -60,10 +60,11 @@ Status FastParticipant::Open() {
   for (const std::string& address : *addresses) {
     addresses_ += (addresses_.empty() ? "" : ",") + address;
   }
-  const auto qos = ParticipantQos(config_, *addresses);
+  auto qos = ParticipantQos(config_, *addresses);
   if (!qos) {
     return qos.error();
   }
+  qos->wire_protocol().participant_id = number_.value();
   participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
       config_.domain_id, *qos, this, dds::StatusMask::none());
   if (participant_ == nullptr) {

@@ -16,6 +16,7 @@
 #include "common/bus/bus_config.hpp"
 #include "common/bus/endpoint_events.hpp"
 #include "common/bus/events.hpp"
+#include "common/bus/fastdds/fast_network.hpp"
 
 namespace limbcast::bus::fastdds {
 
@@ -62,6 +63,7 @@ class FastParticipant final : private eprosima::fastdds::dds::DomainParticipantL
 
   BusConfig config_;
   std::shared_ptr<EventSink> sink_;
+  const ParticipantNumber number_;
   std::string addresses_;  // in use, for Describe
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;

@@ -87,7 +87,8 @@ class FastType final : public eprosima::fastdds::dds::TopicDataType {
 
   void* createData() override { return new Sample(); }
   void deleteData(void* data) override { delete static_cast<Sample*>(data); }
-  bool is_bounded() const override { return true; }
+  /// Not said to be bounded although it is: Fast DDS would drop what is too long without a word.
+  bool is_bounded() const override { return false; }
 
   bool getKey(void* data, Handle* handle, bool /*force_md5*/) override {
     const auto& sample = *static_cast<const Sample*>(data);

@@ -26,6 +26,9 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
   ~FastWriter() override {
     if (writer_ != nullptr) {
       UnregisterAll();
+      // The news that a writer is gone travels on another socket and may overtake its last samples,
+      // which the reader then drops. (Cyclone DDS waits like this by itself.)
+      writer_->wait_for_acknowledgments(kLinger);
       participant_.publisher().delete_datawriter(writer_);
     }
   }
@@ -79,6 +82,9 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
  private:
   using Code = eprosima::fastrtps::types::ReturnCode_t;
   using DataWriter = eprosima::fastdds::dds::DataWriter;
+
+  // A reader that died does not answer: do not wait for it for long.
+  static inline const eprosima::fastrtps::Duration_t kLinger{0, 300'000'000};
 
   static Status Failed(const char* what, const Code& code) {
     const std::string where = std::string(what) + " " + std::string(Topic<T>::kName) + ": ";
