@@ -15,64 +15,41 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kProbePeriod = 100ms;
-constexpr Duration kRetryPause = 1s;        // before a failed device is asked again
-constexpr Duration kFallbackPeriod = 10ms;  // between the loops of a recording that states no rate
-
-Duration PeriodOf(const DriverDescription& description) {
-  return description.tick_rate_hz > 0.0 ? DurationFromSeconds(1.0 / description.tick_rate_hz)
-                                        : kFallbackPeriod;
-}
-
+constexpr Duration kRetryPause = 1s;  // before a failed device is asked again
 }  // namespace
 
 GatewayService::GatewayService(GatewayConfig config, std::unique_ptr<Driver> driver,
                                const Clock& clock, bus::Bus& bus, runtime::WorkerPool& pool,
                                std::function<void()> on_end)
     : config_(std::move(config)),
-      driver_(std::move(driver)),
-      description_(driver_->Describe()),
       clock_(clock),
       bus_(bus),
       pool_(pool),
       on_end_(std::move(on_end)),
-      stream_clock_(config_.pace),
-      tick_period_(PeriodOf(description_)) {
-  if (config_.body_id != 0) {
-    const std::uint32_t first =
-        description_.bodies.empty() ? 1U : description_.bodies.front().body_id.value;
-    body_id_offset_ = std::int64_t{config_.body_id} - first;
-  }
-  for (roster::RosterEntry& entry : description_.bodies) {
-    entry.body_id = Shifted(entry.body_id);
-    entry.session = config_.session;
-  }
-  summary_.driver = description_.driver;
-  summary_.source = description_.source;
-  summary_.bodies = static_cast<std::uint32_t>(description_.bodies.size());
-  summary_.sensors = static_cast<std::uint32_t>(description_.sensors.size());
-}
-
-BodyId GatewayService::Shifted(BodyId body) const {
-  return {static_cast<std::uint32_t>(std::int64_t{body.value} + body_id_offset_)};
+      source_(std::move(driver), config_) {
+  summary_.driver = source_.description().driver;
+  summary_.source = source_.description().source;
+  summary_.bodies = static_cast<std::uint32_t>(source_.description().bodies.size());
+  summary_.sensors = static_cast<std::uint32_t>(source_.description().sensors.size());
 }
 
 Status GatewayService::Start() {
   Expects(!started_, "a service is started once");
-  auto publisher = SamplePublisher::Make(config_, description_, clock_, bus_);
+  auto publisher = SamplePublisher::Make(config_, source_.description(), clock_, bus_);
   if (!publisher) {
     return publisher.error();
   }
   publisher_ = std::move(*publisher);
-  flow_ = std::make_unique<FlowControl>(config_, description_);
+  flow_ = std::make_unique<FlowControl>(config_, source_.description());
   if (Status made = MakeReaders(); !made) {
     return made;
   }
-  if (Status announced = publisher_->Announce(description_); !announced) {
+  if (Status announced = publisher_->Announce(source_.description()); !announced) {
     return announced;
   }
-  if (description_.bodies.empty() && config_.publish_roster) {
+  if (source_.description().bodies.empty() && config_.publish_roster) {
     spdlog::warn("{} says of no sensor where it is worn: fusion will not use them (see --assign)",
-                 description_.source);
+                 source_.description().source);
   }
   started_ = true;
   pool_.Start([this](std::size_t worker) { return worker == 0 ? Drain() : std::nullopt; });
@@ -115,11 +92,12 @@ void GatewayService::Stop() {
   if (!started_ || stopping_.exchange(true)) {
     return;
   }
-  driver_->Interrupt();
+  source_.Interrupt();
   pool_.Stop();
+  stopped_ = true;
   state_reader_.reset();
   skeleton_reader_.reset();
-  publisher_->Withdraw(description_);
+  publisher_->Withdraw(source_.description());
   const std::scoped_lock lock(mutex_);
   if (phase_ != Phase::kEnded) {
     summary_.end = "stopped";
@@ -220,9 +198,9 @@ void GatewayService::BeginStreaming(Time now) {
 std::optional<Time> GatewayService::Stream() {
   while (!stopping_) {
     const Time now = clock_.Now();
-    if (!batch_loaded_) {
+    if (!source_.loaded()) {
       const std::optional<Time> again = LoadTick(now);
-      if (!batch_loaded_) {
+      if (!source_.loaded()) {
         return again;
       }
     }
@@ -234,115 +212,61 @@ std::optional<Time> GatewayService::Stream() {
   return std::nullopt;
 }
 
-// The next tick of the driver, over the end of a loop.
-Result<DriverStep> GatewayService::NextTick() {
-  Result<DriverStep> step = driver_->Next(batch_);
-  const bool again = step && *step == DriverStep::kEnd && config_.loop && first_tick_at_;
-  if (!again) {
-    return step;
-  }
-  if (const Status rewound = driver_->Rewind(); !rewound) {
-    return rewound.error();
-  }
-  stream_clock_.Loop(*first_tick_at_, tick_period_);
-  {
-    const std::scoped_lock lock(mutex_);
-    ++summary_.loops;
-  }
-  return driver_->Next(batch_);
-}
-
+// Nothing when a tick is loaded, else when to be called again (nothing = never).
 std::optional<Time> GatewayService::LoadTick(Time now) {
   if (now < retry_at_) {
     return retry_at_;
   }
-  const Result<DriverStep> step = NextTick();
-  if (!step && description_.time == DriverTime::kHost) {
-    spdlog::warn("{}: {}", description_.source, step.error().message);
+  // Later than every probe, or the first samples would count as old.
+  const Result<DriverStep> step = source_.Load(std::max(now, last_probe_at_ + 1ms));
+  if (step) {
+    if (*step == DriverStep::kEnd) {
+      EndOfData(now);
+    }
+    return now;
+  }
+  if (source_.live()) {
+    spdlog::warn("{}: {}", source_.description().source, step.error().message);
     SetLastError(step.error().message);
     retry_at_ = now + kRetryPause;
     return retry_at_;
   }
-  if (!step) {
-    Fail(step.error());
-    return std::nullopt;
-  }
-  switch (*step) {
-    case DriverStep::kWaiting:
-      return now;
-    case DriverStep::kEnd:
-      EndOfData(now);
-      return now;
-    case DriverStep::kData:
-      batch_loaded_ = true;
-      break;
-  }
-  if (!stream_started_) {
-    stream_started_ = true;
-    first_tick_at_ = batch_.tick_at;
-    // Later than every probe, or the first samples would count as old.
-    stream_clock_.Start(batch_.tick_at, std::max(now, last_probe_at_ + 1ms));
-  }
+  Fail(step.error());
   return std::nullopt;
 }
 
 // When the loaded tick may be sent; nothing = now.
 std::optional<Time> GatewayService::NotYet(Time now) {
-  if (description_.time == DriverTime::kHost) {
-    return std::nullopt;
+  Time due = source_.DueAt(now);
+  if (config_.pace.as_fast && !source_.live()) {
+    if (!flow_->link_lost(now)) {
+      return flow_->Full(now);
+    }
+    due = source_.DueInRealTime(now);
   }
-  if (config_.pace.as_fast && !flow_->link_lost(now)) {
-    return flow_->Full(now);
-  }
-  const Time due = config_.pace.as_fast ? stream_clock_.DueInRealTime(batch_.tick_at)
-                                        : stream_clock_.DueAt(batch_.tick_at, now);
   return due > now ? std::optional(due) : std::nullopt;
 }
 
-// Times of the loaded tick from the recording's scale to the host's.
-void GatewayService::MapToHost(Time now) {
-  const bool jumped = stream_clock_.Send(batch_.tick_at, now);
-  lag_.Record(stream_clock_.lag());
-  for (sensing::MargSample& sample : batch_.marg) {
-    sample.measured_at = stream_clock_.ToStream(sample.measured_at);
-  }
-  for (sensing::FusedOrientation& sample : batch_.orientation) {
-    sample.measured_at = stream_clock_.ToStream(sample.measured_at);
-  }
-  for (body::SegmentTruth& truth : batch_.truth) {
-    truth.measured_at = stream_clock_.ToStream(truth.measured_at);
-  }
-  const std::scoped_lock lock(mutex_);
-  summary_.time_jumps += jumped ? 1U : 0U;
-  summary_.max_lag_ms = std::max(summary_.max_lag_ms, 1e3 * ToSeconds(stream_clock_.lag()));
-}
-
 void GatewayService::SendTick(Time now) {
-  const Time tick_at = batch_.tick_at;
-  if (description_.time == DriverTime::kRecording) {
-    MapToHost(now);
-  }
-  for (body::SegmentTruth& truth : batch_.truth) {
-    truth.body_id = Shifted(truth.body_id);
-  }
-  publisher_->Stamp(batch_);
-  flow_->Sent(batch_, publisher_->streams(), publisher_->marg_streams(),
+  Batch& batch = source_.Take(now);
+  publisher_->Stamp(batch);
+  flow_->Sent(batch, publisher_->streams(), publisher_->marg_streams(),
               publisher_->orientation_streams(), now);
-  publisher_->Write(batch_);
+  publisher_->Write(batch);
+  lag_.Record(source_.lag());
   burst_.Record(clock_.Now() - now);
-  batch_loaded_ = false;
 
   const std::scoped_lock lock(mutex_);
-  first_sent_at_ = first_sent_at_.value_or(now);
   if (publisher_->counters().write_errors != summary_.published.write_errors) {
     summary_.error = publisher_->last_error();
   }
-  if (summary_.ticks > 0 && tick_at > last_tick_at_) {
-    summary_.stream_s += ToSeconds(tick_at - last_tick_at_);
-  }
-  last_tick_at_ = tick_at;
   summary_.published = publisher_->counters();
-  summary_.device_lost += batch_.device_lost;
+  summary_.device_lost += batch.device_lost;
+  summary_.loops = source_.loops();
+  summary_.time_jumps += source_.jumped() ? 1U : 0U;
+  summary_.max_lag_ms = std::max(summary_.max_lag_ms, 1e3 * ToSeconds(source_.lag()));
+  summary_.stream_s = ToSeconds(source_.streamed());
+  first_sent_at_ = first_sent_at_.value_or(now);
   summary_.wall_s = ToSeconds(now - *first_sent_at_);
   ++summary_.ticks;
 }
@@ -398,7 +322,7 @@ GatewaySummary GatewayService::Summary() const {
   summary.ticks_unanswered = flow.ticks_unanswered;
   summary.late_answers = flow.late_answers;
   summary.link_losses = flow.link_losses;
-  if (stopping_) {  // else the worker is writing to its streams
+  if (stopped_) {  // else the worker is writing to its streams
     for (const SensorStream& stream : publisher_->streams()) {
       summary.by_sensor.push_back(
           {.label = stream.label,
@@ -411,28 +335,8 @@ GatewaySummary GatewayService::Summary() const {
 
 void GatewayService::FillHealth(ServiceHealth& health) {
   const GatewaySummary summary = Summary();
-  const auto add = [&health](const char* name, auto value) {
-    health.values.push_back({name, static_cast<double>(value)});
-  };
-  add("samples.published", summary.published.marg + summary.published.orientation);
-  add("samples.marg", summary.published.marg);
-  add("samples.orientation", summary.published.orientation);
-  add("samples.truth", summary.published.truth);
-  add("samples.saturated", summary.published.saturated);
-  add("samples.mag_missing", summary.published.mag_missing);
-  add("samples.device_lost", summary.device_lost);
-  add("samples.unanswered", summary.samples_unanswered);
-  add("samples.write_errors", summary.published.write_errors);
-  add("ticks.published", summary.ticks);
-  add("ticks.unanswered", summary.ticks_unanswered);
-  add("loops", summary.loops);
-  add("time_jumps", summary.time_jumps);
-  add("link_losses", summary.link_losses);
-  add("wait_timeouts", summary.wait_timed_out ? 1 : 0);
-  add("gauge.sensors", summary.sensors);
-  add("gauge.bodies", summary.bodies);
-  add("gauge.phase", static_cast<int>(phase()));
-  add("gauge.max_lag_ms", summary.max_lag_ms);
+  AddValues(summary, health);
+  health.values.push_back({"gauge.phase", static_cast<double>(phase())});
   if (health.last_error.empty()) {
     health.last_error = summary.error;
     if (started_ && phase() == Phase::kWaiting) {

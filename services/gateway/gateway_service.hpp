@@ -21,7 +21,7 @@
 #include "services/gateway/gateway_config.hpp"
 #include "services/gateway/gateway_summary.hpp"
 #include "services/gateway/sample_publisher.hpp"
-#include "services/gateway/stream_clock.hpp"
+#include "services/gateway/tick_source.hpp"
 
 namespace limbcast::gateway {
 
@@ -62,14 +62,11 @@ class GatewayService {
   enum class Phase { kWaiting, kStreaming, kLingering, kEnded };
 
   [[nodiscard]] Status MakeReaders();
-  [[nodiscard]] BodyId Shifted(BodyId body) const;
   std::optional<Time> Drain();
   std::optional<Time> Wait(Time now);
   std::optional<Time> Stream();
   [[nodiscard]] std::optional<Time> LoadTick(Time now);
-  [[nodiscard]] Result<DriverStep> NextTick();
   [[nodiscard]] std::optional<Time> NotYet(Time now);
-  void MapToHost(Time now);
   [[nodiscard]] Phase phase() const;
   void SetPhase(Phase phase);
   void SendTick(Time now);
@@ -81,9 +78,6 @@ class GatewayService {
   void SetLastError(const std::string& message);
 
   GatewayConfig config_;
-  const std::unique_ptr<Driver> driver_;
-  DriverDescription description_;  // the driver's, with our body ids and session
-  std::int64_t body_id_offset_ = 0;
   const Clock& clock_;
   bus::Bus& bus_;
   runtime::WorkerPool& pool_;
@@ -92,18 +86,13 @@ class GatewayService {
   std::unique_ptr<SamplePublisher> publisher_;
   std::atomic<bool> started_{false};
   std::atomic<bool> stopping_{false};
+  std::atomic<bool> stopped_{false};
 
   // Of the worker alone.
-  StreamClock stream_clock_;
-  Batch batch_;
-  bool batch_loaded_ = false;
-  bool stream_started_ = false;
+  TickSource source_;
   std::optional<Time> waiting_since_;
   Time next_probe_at_{};
   Time last_probe_at_{};
-  std::optional<Time> first_tick_at_;  // recording time
-  Time last_tick_at_{};
-  Duration tick_period_;
   std::optional<Time> first_sent_at_;
   std::optional<Time> linger_until_;
   Time retry_at_{};

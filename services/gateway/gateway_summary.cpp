@@ -55,4 +55,28 @@ std::string ToText(const GatewaySummary& summary) {
       summary.device_lost, summary.time_jumps, summary.published.write_errors);
 }
 
+void AddValues(const GatewaySummary& summary, ServiceHealth& health) {
+  const auto add = [&health](const char* name, auto value) {
+    health.values.push_back({name, static_cast<double>(value)});
+  };
+  add("samples.published", summary.published.marg + summary.published.orientation);
+  add("samples.marg", summary.published.marg);
+  add("samples.orientation", summary.published.orientation);
+  add("samples.truth", summary.published.truth);
+  add("samples.saturated", summary.published.saturated);
+  add("samples.mag_missing", summary.published.mag_missing);
+  add("samples.device_lost", summary.device_lost);
+  add("samples.unanswered", summary.samples_unanswered);
+  add("samples.write_errors", summary.published.write_errors);
+  add("ticks.published", summary.ticks);
+  add("ticks.unanswered", summary.ticks_unanswered);
+  add("loops", summary.loops);
+  add("time_jumps", summary.time_jumps);
+  add("link_losses", summary.link_losses);
+  add("wait_timeouts", summary.wait_timed_out ? 1 : 0);
+  add("gauge.sensors", summary.sensors);
+  add("gauge.bodies", summary.bodies);
+  add("gauge.max_lag_ms", summary.max_lag_ms);
+}
+
 }  // namespace limbcast::gateway

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/health.hpp"
 #include "services/gateway/sample_publisher.hpp"
 
 namespace limbcast::gateway {
@@ -44,6 +45,9 @@ struct GatewaySummary {
 /// samples_published (marg and orientation), marg_published, orientation_published,
 /// truth_published, samples_saturated, samples_mag_missing and write_errors.
 [[nodiscard]] std::string ToJson(const GatewaySummary& summary);
+
+/// Adds the summary's counters to `health.values` ("samples.published", ...).
+void AddValues(const GatewaySummary& summary, ServiceHealth& health);
 
 /// One line for people.
 [[nodiscard]] std::string ToText(const GatewaySummary& summary);

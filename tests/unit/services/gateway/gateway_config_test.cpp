@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/service/service_command_line.hpp"
+#include "services/gateway/driver_factory.hpp"
+
 namespace limbcast::gateway {
 namespace {
 
@@ -67,6 +70,25 @@ TEST(GatewayConfigTest, RefusalsNameKeyValueAndLimit) {
   GatewayConfig config;
   config.linger_s = -1.0;
   EXPECT_THAT(Validate(config).error().message, HasSubstr("gateway.linger_s must be in [0"));
+}
+
+TEST(GatewayConfigTest, ShippedFileSaysTheDefaults) {
+  const Result<config::ConfigFile> file =
+      config::ConfigFile::Load(LIMBCAST_SOURCE_DIR "/deploy/config/gateway.toml");
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  const GatewayConfig config = ReadGatewayConfig(file->Get("gateway"));
+  const DriverConfigs drivers = ReadDriverConfigs(*file);
+  static_cast<void>(service::ReadBusConfig(file->Get("bus")));
+  EXPECT_TRUE(file->Finish().ok()) << file->Finish().error().message;
+  EXPECT_TRUE(MakeDriver(config.driver, drivers).ok());
+  const GatewayConfig defaults;
+  EXPECT_EQ(config.driver, defaults.driver);
+  EXPECT_EQ(config.pace.speed, defaults.pace.speed);
+  EXPECT_EQ(config.wait_for, defaults.wait_for);
+  EXPECT_EQ(config.wait_timeout_s, defaults.wait_timeout_s);
+  EXPECT_EQ(config.window_ticks, defaults.window_ticks);
+  EXPECT_EQ(config.answer_timeout_s, defaults.answer_timeout_s);
+  EXPECT_EQ(config.linger_s, defaults.linger_s);
 }
 
 }  // namespace

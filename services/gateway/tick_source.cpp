@@ -1,0 +1,104 @@
+#include "services/gateway/tick_source.hpp"
+
+#include <utility>
+
+#include "common/base/expects.hpp"
+
+namespace limbcast::gateway {
+
+namespace {
+
+// Between the loops of a recording that states no rate.
+constexpr Duration kFallbackPeriod = std::chrono::milliseconds(10);
+
+Duration PeriodOf(const DriverDescription& description) {
+  return description.tick_rate_hz > 0.0 ? DurationFromSeconds(1.0 / description.tick_rate_hz)
+                                        : kFallbackPeriod;
+}
+
+}  // namespace
+
+TickSource::TickSource(std::unique_ptr<Driver> driver, const GatewayConfig& config)
+    : driver_(std::move(driver)),
+      description_(driver_->Describe()),
+      loop_(config.loop),
+      period_(PeriodOf(description_)),
+      stream_clock_(config.pace) {
+  if (config.body_id != 0) {
+    const std::uint32_t first =
+        description_.bodies.empty() ? 1U : description_.bodies.front().body_id.value;
+    body_id_offset_ = std::int64_t{config.body_id} - first;
+  }
+  for (roster::RosterEntry& entry : description_.bodies) {
+    entry.body_id = Renumbered(entry.body_id);
+    entry.session = config.session;
+  }
+}
+
+BodyId TickSource::Renumbered(BodyId body) const {
+  return {static_cast<std::uint32_t>(std::int64_t{body.value} + body_id_offset_)};
+}
+
+// The next tick of the driver, over the end of a loop.
+Result<DriverStep> TickSource::Next() {
+  Result<DriverStep> step = driver_->Next(batch_);
+  const bool again = step && *step == DriverStep::kEnd && loop_ && first_tick_at_;
+  if (!again) {
+    return step;
+  }
+  if (const Status rewound = driver_->Rewind(); !rewound) {
+    return rewound.error();
+  }
+  stream_clock_.Loop(*first_tick_at_, period_);
+  last_tick_at_ = *first_tick_at_ - period_;
+  ++loops_;
+  return driver_->Next(batch_);
+}
+
+Result<DriverStep> TickSource::Load(Time start_at) {
+  Expects(!loaded_, "one tick loaded at a time");
+  const Result<DriverStep> step = Next();
+  loaded_ = step && *step == DriverStep::kData;
+  if (loaded_ && !first_tick_at_) {
+    first_tick_at_ = batch_.tick_at;
+    stream_clock_.Start(batch_.tick_at, start_at);
+  }
+  return step;
+}
+
+Time TickSource::DueAt(Time now) const {
+  return live() ? now : stream_clock_.DueAt(batch_.tick_at, now);
+}
+
+Time TickSource::DueInRealTime(Time now) const {
+  return live() ? now : stream_clock_.DueInRealTime(batch_.tick_at);
+}
+
+void TickSource::MapToHost(Time now) {
+  jumped_ = stream_clock_.Send(batch_.tick_at, now);
+  for (sensing::MargSample& sample : batch_.marg) {
+    sample.measured_at = stream_clock_.ToStream(sample.measured_at);
+  }
+  for (sensing::FusedOrientation& sample : batch_.orientation) {
+    sample.measured_at = stream_clock_.ToStream(sample.measured_at);
+  }
+  for (body::SegmentTruth& truth : batch_.truth) {
+    truth.measured_at = stream_clock_.ToStream(truth.measured_at);
+  }
+}
+
+Batch& TickSource::Take(Time now) {
+  Expects(loaded_, "a loaded tick");
+  loaded_ = false;
+  streamed_ += last_tick_at_ ? batch_.tick_at - *last_tick_at_ : Duration{};
+  last_tick_at_ = batch_.tick_at;
+  if (!live()) {
+    MapToHost(now);
+  }
+  for (body::SegmentTruth& truth : batch_.truth) {
+    truth.body_id = Renumbered(truth.body_id);
+  }
+  return batch_;
+}
+
+}  // namespace limbcast::gateway

@@ -1,0 +1,65 @@
+#include "services/gateway/tick_source.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/services/gateway/fake_driver.hpp"
+
+namespace limbcast::gateway {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Time kNow = TimeFromNanoseconds(1'700'000'000'000'000'000);
+
+GatewayConfig Looping() {
+  GatewayConfig config;
+  config.loop = true;
+  return config;
+}
+
+TEST(TickSourceTest, TimesAndBodiesAreThoseOfTheNetwork) {
+  auto driver = std::make_unique<test::FakeDriver>(1, 2);
+  driver->with_truth = true;
+  GatewayConfig config;
+  config.session = "s";
+  config.body_id = 9;
+  TickSource source(std::move(driver), config);
+  EXPECT_EQ(source.description().bodies[0].body_id, BodyId{9});
+  EXPECT_EQ(source.description().bodies[0].session, "s");
+  ASSERT_EQ(*source.Load(kNow), DriverStep::kData);
+  EXPECT_EQ(source.DueAt(kNow), kNow);
+  const Batch& batch = source.Take(kNow);
+  EXPECT_EQ(batch.marg[0].measured_at, kNow);
+  EXPECT_EQ(batch.truth[0].measured_at, kNow);
+  EXPECT_EQ(batch.truth[0].body_id, BodyId{9});
+}
+
+TEST(TickSourceTest, LoopsAreJoinedWithOnePeriodBetween) {
+  TickSource source(std::make_unique<test::FakeDriver>(1, 3), Looping());
+  for (int tick = 0; tick < 7; ++tick) {
+    ASSERT_EQ(*source.Load(kNow), DriverStep::kData);
+    const Time due = source.DueAt(kNow);
+    EXPECT_EQ(source.Take(due).marg[0].measured_at, kNow + tick * 10ms);
+  }
+  EXPECT_EQ(source.loops(), 2U);
+  EXPECT_EQ(source.streamed(), 60ms);
+}
+
+TEST(TickSourceTest, EmptyDriverDoesNotLoopForEver) {
+  TickSource source(std::make_unique<test::FakeDriver>(1, 0), Looping());
+  EXPECT_EQ(*source.Load(kNow), DriverStep::kEnd);
+  EXPECT_FALSE(source.loaded());
+}
+
+TEST(TickSourceTest, LiveTimesAreLeftAlone) {
+  auto driver = std::make_unique<test::FakeDriver>(1, 3);
+  driver->description().time = DriverTime::kHost;
+  TickSource source(std::move(driver), {});
+  ASSERT_EQ(*source.Load(kNow), DriverStep::kData);
+  EXPECT_EQ(source.DueAt(kNow), kNow);
+  EXPECT_EQ(source.DueInRealTime(kNow), kNow);
+  EXPECT_EQ(source.Take(kNow).marg[0].measured_at, Time{});
+}
+
+}  // namespace
+}  // namespace limbcast::gateway
