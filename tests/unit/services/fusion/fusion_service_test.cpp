@@ -163,12 +163,14 @@ TEST_F(FusionServiceTest, ASensorMovesToAnotherBodyOnAnotherWorker) {
 
 TEST_F(FusionServiceTest, ABodyThatIsDisposedOfEnds) {
   world.Assign(1, {{10, body::Segment::kHead}, {11, body::Segment::kPelvis}});
+  world.Send(world.Sample(10, 1));
+  world.Send(world.Sample(11, 1));
   roster::RosterEntry key;
   key.body_id = BodyId{1};
   EXPECT_TRUE(world.roster->Dispose(key).ok());
   EXPECT_EQ(world.disposed.size(), 2U);
-  world.Send(world.Sample(10, 1));
-  EXPECT_TRUE(world.states.empty());
+  world.Send(world.Sample(10, 2));
+  EXPECT_EQ(world.states.size(), 2U);
   EXPECT_EQ(Value("verdict.unassigned"), 1.0);
   EXPECT_EQ(Value("gauge.bodies"), 0.0);
 }
