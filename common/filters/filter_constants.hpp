@@ -25,8 +25,8 @@ inline constexpr double kUnseenRate_rad_s = 0.5;
 inline constexpr double kMagneticMemory_s = 10.0;
 
 /// Values no body-worn sensor can read: treated like non-finite ones.
-inline constexpr double kMaxPlausibleRate_rad_s = 1000.0;
-inline constexpr double kMaxPlausibleForce_m_s2 = 1e5;
-inline constexpr double kMaxPlausibleField_tesla = 10.0;
+inline constexpr double kMaxPlausibleRate_rad_s = 150.0;   // 8600 °/s
+inline constexpr double kMaxPlausibleForce_m_s2 = 4000.0;  // 400 g
+inline constexpr double kMaxPlausibleField_tesla = 0.05;   // a thousand earth fields
 
 }  // namespace limbcast::filters

@@ -279,7 +279,7 @@ void GaussNewtonOrientation::Report(const GatedSample& sample, bool use_field) {
   if (use_field) {
     const auto mag = Plain(sample.mag_tesla);
     const double scale = state_.inverse_field_tesla;
-    state_.field.Update(scale * std::sqrt(kernel::Dot(mag, mag)), scale * kernel::Dot(up_S, mag),
+    state_.field.Update(scale * scale * kernel::Dot(mag, mag), scale * kernel::Dot(up_S, mag),
                         state_.reference_field.z(), sample.dt_s);
   }
   const double mag_absent_s = state_.gate.mag_absent_s();
