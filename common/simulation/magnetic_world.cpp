@@ -62,7 +62,7 @@ std::vector<IronZone> MakeIronZones(const PersonMotion& person, double duration_
         way_m + Eigen::Vector3d(away_m * std::cos(bearing_rad), away_m * std::sin(bearing_rad),
                                 duct ? -0.3 : random.Uniform(0.5, 1.0));
     const Eigen::Vector3d towards = random.Gaussian3().normalized();
-    zone.moment_a_m2 = MomentFor_a_m2(random.Uniform(10e-6, 25e-6)) * towards;
+    zone.moment_a_m2 = MomentFor_a_m2(random.Uniform(15e-6, 35e-6)) * towards;
     if ((zone.p_earth_iron_m - home_m).head<2>().norm() >= 1.5) {
       zones.push_back(zone);
     }

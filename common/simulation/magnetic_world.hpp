@@ -43,8 +43,8 @@ struct MagneticWorld {
 
 /// Iron beside, and under, the way that `person` walks in its first `duration_s`: `count` pieces,
 /// alternately a duct under the floor and something of table height at 0.6 to 1 m from the way,
-/// none within 1.5 m of where the person begins, each 10 to 25 µT strong at half a metre.
+/// none within 1.5 m of where the person begins, each 15 to 35 µT strong at half a metre.
 [[nodiscard]] std::vector<IronZone> MakeIronZones(const PersonMotion& person, double duration_s,
-                                                  std::uint64_t seed, int count = 5);
+                                                  std::uint64_t seed, int count = 8);
 
 }  // namespace limbcast::simulation
