@@ -5,6 +5,7 @@
 #include "tools/limbcast/demo_command.hpp"
 #include "tools/limbcast/echo_command.hpp"
 #include "tools/limbcast/evaluate_command.hpp"
+#include "tools/limbcast/run_command.hpp"
 #include "tools/limbcast/sub_command.hpp"
 #include "tools/limbcast/top_command.hpp"
 
@@ -15,13 +16,11 @@ int main(int argc, char** argv) {
                                    "  limbcast demo --seconds 20\n"
                                    "  limbcast top --domain 7\n"
                                    "  limbcast echo skeleton --count 1\n");
-  line.app().require_subcommand(1);
+  line.app().require_subcommand(0, 1);  // none is said below, in our words
   line.app().fallthrough();
   const std::array commands = {
-      tool::AddDemoCommand(line),
-      tool::AddTopCommand(line),
-      tool::AddEchoCommand(line),
-      tool::AddEvaluateCommand(line),
+      tool::AddDemoCommand(line), tool::AddTopCommand(line),      tool::AddRunCommand(line),
+      tool::AddEchoCommand(line), tool::AddEvaluateCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;
@@ -32,5 +31,6 @@ int main(int argc, char** argv) {
       return command.run();
     }
   }
-  return 2;
+  return line.Fail({ErrorCode::kInvalidArgument,
+                    "a command is missing, e.g. demo or top (see limbcast --help)"});
 }

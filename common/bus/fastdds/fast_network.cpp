@@ -5,6 +5,8 @@
 #include <ifaddrs.h>
 #include <netdb.h>
 #include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <algorithm>
@@ -153,6 +155,36 @@ Result<DomainParticipantQos> ParticipantQos(const BusConfig& config,
   discovery.leaseDuration = Duration_t(10, 0);  // as Cyclone DDS
   discovery.leaseDuration_announcementperiod = loopback ? Duration_t(0.5) : Duration_t(2, 0);
   return qos;
+}
+
+namespace {
+
+bool IsFree(std::uint32_t port) {
+  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_ANY);
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  // NOLINTNEXTLINE(*-reinterpret-cast): the interface of bind
+  const bool bound = bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  close(fd);
+  return bound;
+}
+
+}  // namespace
+
+Status CheckFreePorts(const BusConfig& config) {
+  // Two unicast ports for each participant number, DDSI-RTPS 2.2, 9.6.1.1.
+  const std::uint32_t first = 7400 + 250 * config.domain_id + 10;
+  for (std::uint32_t number = 0; number < kPeerPorts; ++number) {
+    if (IsFree(first + 2 * number) && IsFree(first + 2 * number + 1)) {
+      return Ok();
+    }
+  }
+  return Error{ErrorCode::kUnavailable,
+               "no free port in domain " + std::to_string(config.domain_id) + ": UDP " +
+                   std::to_string(first) + " to " + std::to_string(first + 2 * kPeerPorts - 1) +
+                   " are in use"};
 }
 
 ParticipantNumber::ParticipantNumber() {

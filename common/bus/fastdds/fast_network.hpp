@@ -19,6 +19,10 @@ namespace limbcast::bus::fastdds {
 [[nodiscard]] Result<eprosima::fastdds::dds::DomainParticipantQos> ParticipantQos(
     const BusConfig& config, const std::vector<std::string>& addresses);
 
+/// Fails with kUnavailable when no participant of `config`'s domain could listen on this host: the
+/// library itself would go on without a port, deaf.
+[[nodiscard]] Status CheckFreePorts(const BusConfig& config);
+
 /// The lowest participant number that this process does not use, until destroyed. It decides the
 /// ports, and peers call only the first 64 of them; the library itself never uses a number twice,
 /// so the 65th bus that a process opened could not be found. Thread-safe.

@@ -64,6 +64,9 @@ Status FastParticipant::Open() {
   if (!qos) {
     return qos.error();
   }
+  if (Status ports = CheckFreePorts(config_); !ports) {
+    return ports;
+  }
   qos->wire_protocol().participant_id = number_.value();
   participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
       config_.domain_id, *qos, this, dds::StatusMask::none());

@@ -208,11 +208,16 @@ void Demo::End() {
     }
     const Time asked_at = clock_.Now();
     ended_cleanly_ = processes_.Stop(part) && ended_cleanly_;
+    const auto reported = [&] {
+      return view_->With(
+          [&](const PipelineModel& model) { return model.health.HasReported(pid, asked_at); });
+    };
     const Time deadline = clock_.Now() + 2s;
-    while (clock_.Now() < deadline && !view_->With([&](const PipelineModel& model) {
-      return model.health.HasReported(pid, asked_at);
-    })) {
+    while (!reported() && clock_.Now() < deadline) {
       [[maybe_unused]] const bool slept = sleeper.For(5ms);
+    }
+    if (!reported()) {
+      without_last_report_.emplace_back(NameOf(part));
     }
     [[maybe_unused]] const bool slept = sleeper.For(100ms);  // what is under way arrives
   }
@@ -225,6 +230,7 @@ nlohmann::json Demo::SumUp() {
   outcome.child_cpu_seconds = processes_.cpu_seconds();
   outcome.client_cpu_seconds = client_cpu_seconds_;
   outcome.client_rss_mib = runtime::ReadProcessUsage().rss_mib;
+  outcome.without_last_report = without_last_report_;
   outcome.reference_pose = reference_pose_->message();
   outcome.clean_exit = ended_cleanly_ && processes_.clean() && processes_.leftovers() == 0;
   ended_cleanly_ = outcome.clean_exit;

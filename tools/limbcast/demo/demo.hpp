@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/base/result.hpp"
 #include "common/bus/bus.hpp"
@@ -54,6 +55,7 @@ class Demo {
   bool counting_errors_ = false;
   Time next_progress_{};
   bool ended_cleanly_ = false;
+  std::vector<std::string> without_last_report_;
 };
 
 }  // namespace limbcast::tool

@@ -97,6 +97,7 @@ json SummaryJson(const DemoOptions& options, const PipelineModel& model,
           {"cpu_us_per_body_frame", CpuJson(model, outcome)},
           {"rss_mib", MemoryJson(model, outcome)},
           {"restarts", outcome.restarts},
+          {"without_last_report", outcome.without_last_report},
           {"clean_exit", outcome.clean_exit}};
 }
 
@@ -147,6 +148,9 @@ std::string SummaryText(const json& summary) {
   }
   for (const auto& [name, count] : summary["restarts"].items()) {
     line("started again", fmt::format("{}, {} times", name, count.dump()));
+  }
+  for (const json& name : summary["without_last_report"]) {
+    line("counters", "the last report of " + name.get<std::string>() + " did not arrive");
   }
   line("clean exit", summary["clean_exit"].get<bool>() ? "yes" : "NO");
   return text;

@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tools/limbcast/demo/demo_options.hpp"
 #include "tools/limbcast/monitor/pipeline_model.hpp"
@@ -17,6 +18,8 @@ struct DemoOutcome {
   std::map<std::string, double> child_cpu_seconds;  ///< of their whole life
   double client_cpu_seconds = 0.0;                  ///< while skeletons came
   double client_rss_mib = 0.0;
+  /// Processes whose last report did not arrive: the counters lack what came after the one before.
+  std::vector<std::string> without_last_report;
   std::string reference_pose;  ///< what the posture service said of it; "" = never asked
 };
 

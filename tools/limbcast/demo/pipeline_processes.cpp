@@ -20,18 +20,6 @@ bool KilledFromOutside(const process::ExitState& state) {
          state.signal == SIGHUP || state.clean();
 }
 
-// As TOML wants a text: in quotes, with quotes and backslashes escaped.
-std::string TomlText(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-    }
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
 std::string LastLine(const std::string& text) {
   const auto end = text.find_last_not_of('\n');
   if (end == std::string::npos) {
@@ -58,11 +46,10 @@ std::vector<std::string> ArgumentsOf(Part part, const DemoOptions& options) {
     add({"--partition", options.bus.partition});
   }
   if (part == Part::kGateway) {
-    add({"--set", "gateway.wait_for=posture"});
+    add({"--wait-for", "posture"});
     if (!options.recording.empty()) {
-      add({"--set", "gateway.driver=replay", "--set", "gateway.exit_at_end=true"});
-      add({"--set", "replay.recording=" + TomlText(options.recording)});
-      add({"--set", "gateway.speed=" + (options.speed.empty() ? "max" : options.speed)});
+      add({"--recording", options.recording, "--exit-at-end", "--speed",
+           options.speed.empty() ? "max" : options.speed});
     }
     for (const std::string& setting : options.gateway_settings) {
       add({"--set", setting});
@@ -84,6 +71,10 @@ Status PipelineProcesses::Start(Part part) {
 void PipelineProcesses::Collect(Part part, const process::ExitState& state) {
   auto& child = children_[static_cast<std::size_t>(part)].process;
   cpu_seconds_[std::string(NameOf(part))] += state.cpu_seconds;
+  if (!state.clean()) {
+    errors_ += fmt::format("{}: ended with status {}, signal {}\n", NameOf(part), state.status,
+                           state.signal);
+  }
   std::istringstream lines(child->Errors());
   for (std::string line; std::getline(lines, line);) {
     errors_ += fmt::format("{}: {}\n", NameOf(part), line);
