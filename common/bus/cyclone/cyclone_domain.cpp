@@ -89,6 +89,8 @@ std::string DomainXml(const BusConfig& config) {
          "</Discovery><Internal>"
          // A slow reader must not hold a stream back: KEEP_LAST bounds what is kept, not bytes.
          "<Watermarks><WhcHigh>64 MB</WhcHigh><WhcHighInit>64 MB</WhcHighInit></Watermarks>"
+         // Fast DDS needs it to know whom a dispose means, see cyclone_sertype.cpp.
+         "<GenerateKeyhash>true</GenerateKeyhash>"
          "<WriteBatch>" +
          (config.write_batching ? "true" : "false") +
          "</WriteBatch></Internal></Domain></CycloneDDS>";

@@ -37,8 +37,15 @@ constexpr std::size_t Padded(std::size_t size) { return (size + 3) & ~std::size_
 const Sertype& TypeOf(const ddsi_sertype* type) { return *static_cast<const Sertype*>(type); }
 const Serdata& DataOf(const ddsi_serdata* data) { return *static_cast<const Serdata*>(data); }
 
+// Fast DDS 2.9 takes a key-only payload of up to 16 bytes for the key hash, header and byte order
+// included, and then disposes an instance that nobody knows. Longer ones it ignores, and uses the
+// hash that comes along (GenerateKeyhash in the domain's configuration).
+constexpr std::size_t kMinKeyPayload_bytes = 20;
+static_assert(kMinKeyPayload_bytes > 16 && kMinKeyPayload_bytes <= kMaxKeyCdr_bytes);
+
 Serdata* NewSerdata(const ddsi_sertype* type, ddsi_serdata_kind kind, std::size_t size) {
-  const std::size_t capacity = Padded(size);
+  const std::size_t capacity =
+      kind == SDK_KEY ? std::max(Padded(size), kMinKeyPayload_bytes) : Padded(size);
   void* memory = std::malloc(sizeof(Serdata) + capacity);
   if (memory == nullptr) {
     std::abort();  // as the library does

@@ -25,9 +25,6 @@ struct WireOps {
   std::size_t (*serialize_key_hash)(const KeyHash& key, std::span<char> out);
 };
 
-/// No key-only CDR is longer: header, 16 bytes of key, padding.
-inline constexpr std::size_t kMaxKeyCdr_bytes = 24;
-
 template <typename T>
 const WireOps& WireOpsOf() {
   using C = Codec<T>;

@@ -69,6 +69,9 @@ LIMBCAST_WIRE_TYPE(ServiceHealth, ServiceHealth, true);
 
 using KeyHash = std::array<std::uint8_t, 16>;
 
+/// No key-only CDR is longer: header, 16 bytes of key, padding.
+inline constexpr std::size_t kMaxKeyCdr_bytes = 24;
+
 /// Copies between a domain value and its wire type: fields and nothing else, no unit, frame or
 /// default is decided here. Stateless, thread-safe. Wire objects are made once and reused: nothing
 /// here allocates once their sequences have grown. The generated types are complete after including
@@ -106,7 +109,8 @@ struct Codec {
   /// none, a text longer than its bound. Never throws; `wire` means nothing after a failure. Enum
   /// numbers and list lengths are Decode's affair.
   [[nodiscard]] static bool Deserialize(std::span<const char> bytes, Wire& wire);
-  /// The same for the key fields alone, as dispose messages carry them (at most 24 bytes).
+  /// The same for the key fields alone, as dispose messages carry them: at most kMaxKeyCdr_bytes,
+  /// padding included.
   [[nodiscard]] static std::size_t SerializeKey(const Wire& wire, std::span<char> out);
   [[nodiscard]] static bool DeserializeKey(std::span<const char> bytes, Wire& wire);
   /// Only the key fields of a whole sample (they come first in every type); false when it is too

@@ -151,8 +151,7 @@ std::size_t Codec<T>::SerializeKey(const Wire& wire, std::span<char> out) {
 
 template <typename T>
 bool Codec<T>::DeserializeKey(std::span<const char> bytes, Wire& wire) {
-  return OnlyPaddingIn(
-      ReadEncapsulated(bytes, [&](eprosima::fastcdr::Cdr& cdr) { KeyDeserialize(cdr, wire); }));
+  return bytes.size() <= kMaxKeyCdr_bytes && DeserializeLeadingKey(bytes, wire);
 }
 
 template <typename T>

@@ -45,6 +45,10 @@ TEST(CycloneDomainXmlTest, InterfacesAreGivenByNameOrAddress) {
       << xml;
 }
 
+TEST(CycloneDomainXmlTest, KeyHashesTravelBecauseFastDdsNeedsThemToDispose) {
+  EXPECT_TRUE(Contains(DomainXml({}), "<GenerateKeyhash>true</GenerateKeyhash>"));
+}
+
 TEST(CycloneDomainXmlTest, BatchingIsAsConfigured) {
   EXPECT_TRUE(Contains(DomainXml({}), "<WriteBatch>false</WriteBatch>"));
   EXPECT_TRUE(Contains(DomainXml({.write_batching = true}), "<WriteBatch>true</WriteBatch>"));

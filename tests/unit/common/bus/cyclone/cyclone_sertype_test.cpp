@@ -83,6 +83,16 @@ TEST_F(CycloneSertypeTest, KeysOfSampleKeyMessageAndKeyHashAgree) {
   }
 }
 
+TEST_F(CycloneSertypeTest, AKeyMessageIsTooLongForFastDdsToTakeItForAKeyHash) {
+  const Data key = FromSample(SDK_KEY);
+  EXPECT_GT(ddsi_serdata_size(key.get()), 16U);
+  std::vector<char> bytes(ddsi_serdata_size(key.get()));
+  ddsi_serdata_to_ser(key.get(), 0, bytes.size(), bytes.data());
+  const Data received(MakeSerdata(type_.get(), SDK_KEY, bytes));
+  ASSERT_NE(received, nullptr);
+  EXPECT_TRUE(type_->serdata_ops->eqkey(key.get(), received.get()));
+}
+
 TEST_F(CycloneSertypeTest, TheKeyHashIsBigEndianCdr) {
   wire_.body_id(0x01020304);
   wire_.segment(5);
