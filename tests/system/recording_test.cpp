@@ -56,7 +56,12 @@ TEST_P(RecordingTest, IsPlayedToItsEndWithoutLosingASample) {
   EXPECT_EQ(run.summary["segments"], full_body ? 16 : 1);
   // 16 sensors for 100 s at 100 Hz; one sensor for 164 to 207 s at 286 Hz.
   EXPECT_GE(balance.published, full_body ? 160'000U : 45'000U);
-  EXPECT_GE(run.summary["skeletons"].get<std::uint64_t>(), full_body ? 9'900U : 45'000U);
+  // Nobody slows the pipeline down for a client: on a busy machine it may miss skeletons that were
+  // emitted, and then says how many.
+  EXPECT_GE(run.summary["skeletons"].get<std::uint64_t>() +
+                run.summary["skeletons_lost"].get<std::uint64_t>(),
+            full_body ? 9'900U : 45'000U);
+  EXPECT_TRUE(run.summary["without_last_report"].empty());
   EXPECT_EQ(run.summary["orientation_error_deg"].is_null(), full_body);
 }
 

@@ -46,6 +46,7 @@ Status Complete(service::ServiceCommandLine& line, DemoArguments& arguments) {
   }
   options.bus = *bus_config;
   options.bus.participant_name = "limbcast-demo";
+  options.bus.stream_depth = 1024;  // a recording played at full speed comes in gusts
   options.bus.vendor =
       VendorOf(options.dds, "client") == "fast" ? bus::Vendor::kFast : bus::Vendor::kCyclone;
   if (line.app().count("--domain") == 0) {
