@@ -71,11 +71,11 @@ FootMotion Footsteps::At(const TimedPhase& phase, Side side, const Jet& since_s)
         parity + 2 * static_cast<int>(std::floor((steps.value - parity + (2.0 - kBetween)) / 2.0));
     if (k >= 0 && k < phase.steps) {
       return Swinging(placements_[static_cast<std::size_t>(k)],
-                      placements_[static_cast<std::size_t>(k + 2)], steps - k);
+                      placements_[static_cast<std::size_t>(k) + 2], steps - k);
     }
     if (k >= phase.steps) {
       const int last = phase.steps - 1 - ((phase.steps - 1 - parity) % 2 == 0 ? 0 : 1);
-      stands = placements_[static_cast<std::size_t>(last + 2)];
+      stands = placements_[static_cast<std::size_t>(last) + 2];
     }
   }
   FootMotion foot;

@@ -125,13 +125,13 @@ MargErrors MakeMargErrors(NoisePreset preset) {
 }
 
 Status Validate(const MargErrors& errors) {
-  if (const Status ok = ValidateTriad(errors.gyro, "gyro"); !ok) {
+  if (Status ok = ValidateTriad(errors.gyro, "gyro"); !ok) {
     return ok;
   }
-  if (const Status ok = ValidateTriad(errors.accel, "accel"); !ok) {
+  if (Status ok = ValidateTriad(errors.accel, "accel"); !ok) {
     return ok;
   }
-  if (const Status ok = ValidateTriad(errors.mag, "mag"); !ok) {
+  if (Status ok = ValidateTriad(errors.mag, "mag"); !ok) {
     return ok;
   }
   if (!(errors.warm_up_time_s > 0.0)) {
@@ -194,7 +194,7 @@ void MargModel::Read(const IdealMarg& ideal, sensing::MargSample& sample) {
       errors_.warm_up_celsius * (1.0 - std::exp(-elapsed_s_ / errors_.warm_up_time_s));
   const auto read = [&](Triad& triad, const Eigen::Vector3d& truth, sensing::MargFlag flag) {
     bool saturated = false;
-    const Eigen::Vector3f reading = ReadTriad(triad, truth, warmer_celsius, saturated);
+    Eigen::Vector3f reading = ReadTriad(triad, truth, warmer_celsius, saturated);
     sample.flags |= saturated ? flag : 0U;
     return reading;
   };

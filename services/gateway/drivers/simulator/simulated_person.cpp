@@ -21,7 +21,8 @@ std::uint64_t SeedOf(const SimulatorConfig& config, std::uint32_t index) {
 simulation::FloorPose StartOf(const SimulatorConfig& config, std::uint32_t index) {
   const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(config.persons)));
   constexpr double kTurnEach_rad = 0.7;
-  return {config.spacing_m * (index % side), config.spacing_m * (index / side),
+  const std::uint32_t row = index / side;
+  return {config.spacing_m * (index % side), config.spacing_m * row,
           config.facing_rad + kTurnEach_rad * index};
 }
 
@@ -98,6 +99,7 @@ void SimulatedPerson::AddSensor(const SimulatorConfig& config, body::Segment seg
 
 std::vector<sensing::SensorInfo> SimulatedPerson::sensors() const {
   std::vector<sensing::SensorInfo> infos;
+  infos.reserve(sensors_.size());
   for (const Sensor& sensor : sensors_) {
     infos.push_back(sensor.info);
   }

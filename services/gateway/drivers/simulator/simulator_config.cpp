@@ -111,7 +111,7 @@ Status Validate(const SimulatorConfig& config) {
         std::tuple{"facing_rad", config.facing_rad, Range{-6.3, 6.3}},
         std::tuple{"height_m", config.height_m, kHeight_m},
         std::tuple{"spacing_m", config.spacing_m, kSpacing_m}}) {
-    if (const Status ok = CheckRange(key, value, range); !ok) {
+    if (Status ok = CheckRange(key, value, range); !ok) {
       return ok;
     }
   }
