@@ -28,6 +28,11 @@ INSTANTIATE_TEST_SUITE_P(Pairs, DdsConformance,
                                            kFastToCyclone),
                          Name);
 
+INSTANTIATE_TEST_SUITE_P(Pairs, SlowReaderConformance,
+                         ::testing::Values(kFast, kCycloneTwo, kFastTwo, kCycloneToFast,
+                                           kFastToCyclone),
+                         Name);
+
 INSTANTIATE_TEST_SUITE_P(Pairs, ProcessConformance,
                          ::testing::Values(kCycloneTwo, kFastTwo, kCycloneToFast, kFastToCyclone),
                          Name);

@@ -9,7 +9,11 @@ namespace limbcast::conformance {
 
 class DdsConformance : public BusConformance {};
 
-TEST_P(DdsConformance, ReaderThatHangsDoesNotHoldTheWriterBack) {
+/// Not for Cyclone DDS inside one process: it delivers to its own readers on the writing thread,
+/// like inproc.
+class SlowReaderConformance : public BusConformance {};
+
+TEST_P(SlowReaderConformance, ReaderThatHangsDoesNotHoldTheWriterBack) {
   constexpr std::uint32_t kSamples = 2000;
   Collector<MargSample> collector;
   const auto peer = OpenPeer();
