@@ -59,7 +59,10 @@ Result<std::string> PeerSession::Dispatch(const Words& words) {
     return Stop(words[1]);
   }
   if (verb == "garbage" && words.size() == 2) {
-    return SendGarbage(words[1]);
+    return SendGarbage(words[1], Garbage(words[1]));
+  }
+  if (verb == "encapsulations" && words.size() == 2) {
+    return SendGarbage(words[1], BadEncapsulations(words[1]));
   }
   if (verb == "counters" && words.size() == 2) {
     return Counters(words[1]);
@@ -188,7 +191,8 @@ Result<std::string> PeerSession::Stop(const std::string& topic) {
   return next;
 }
 
-Result<std::string> PeerSession::SendGarbage(const std::string& topic) {
+Result<std::string> PeerSession::SendGarbage(const std::string& topic,
+                                             const std::vector<Bytes>& garbage) {
   auto it = raw_writers_.find(topic);
   if (it == raw_writers_.end()) {
     const auto names = NamesOf(topic);
@@ -202,7 +206,6 @@ Result<std::string> PeerSession::SendGarbage(const std::string& topic) {
     }
     it = raw_writers_.emplace(topic, std::move(made).value()).first;
   }
-  const std::vector<Bytes> garbage = Garbage(topic);
   for (const Bytes& payload : garbage) {
     if (const Status sent = it->second->Write(payload); !sent) {
       return sent.error();

@@ -28,6 +28,7 @@ namespace limbcast::conformance {
 ///   stop <topic>                      -> ok <next sequence>
 ///   dispose <topic> <key>
 ///   garbage <topic>                   sends every payload of Garbage() -> ok <how many>
+///   encapsulations <topic>            sends every payload of BadEncapsulations() -> ok <how many>
 ///   counters <topic>                  -> ok matched=<n> incompatible_qos=<n>
 ///   events                            -> ok <kind>/<topic>/<detail> ...
 ///   close                             destroys everything that open made
@@ -54,7 +55,7 @@ class PeerSession {
   Result<std::string> Write(const Words& words);
   Result<std::string> Start(const Words& words);
   Result<std::string> Stop(const std::string& topic);
-  Result<std::string> SendGarbage(const std::string& topic);
+  Result<std::string> SendGarbage(const std::string& topic, const std::vector<Bytes>& garbage);
   Result<std::string> Counters(const std::string& topic);
   Result<std::string> Events();
   Result<std::string> Dispatch(const Words& words);

@@ -53,7 +53,7 @@ void PutUint32(Bytes& bytes, std::size_t at, std::uint32_t value) {
 
 template <typename T>
 Bytes GoodBytes(std::uint32_t sequence) {
-  const std::string text = test_support::WireBytes(Example<T>(4, sequence));
+  const std::string text = test_support::WireBytes(Example<T>(kGarbageKey, sequence));
   return {text.begin(), text.end()};
 }
 
@@ -94,10 +94,7 @@ std::vector<Bytes> Garbage(std::string_view topic) {
     garbage.emplace_back(good.begin(),
                          good.begin() + static_cast<std::ptrdiff_t>(good.size() / 2 / 4 * 4));
     garbage.push_back(good);
-    garbage.back()[1] = 0x99;
-    garbage.push_back(good);
     garbage.back().resize(good.size() / 4 * 4 + 64, 0xAA);
-    garbage.emplace_back(100, 0xFF);
   });
   if (topic == bus::Topic<sensing::MargFrame>::kShortName) {
     // body_id, gateway, length of the list
@@ -112,6 +109,15 @@ std::vector<Bytes> Garbage(std::string_view topic) {
     garbage.push_back(GoodBytes<body::SegmentState>(1));
     garbage.back()[kHeader + 6] = 200;  // body_id, segment, slot, then the verdict
   }
+  return garbage;
+}
+
+std::vector<Bytes> BadEncapsulations(std::string_view topic) {
+  std::vector<Bytes> garbage(1, Bytes(100, 0xFF));
+  VisitTopic(topic, [&]<typename T>(bus::TypeTag<T>) {
+    garbage.push_back(GoodBytes<T>(1));
+    garbage.back()[1] = 0x99;
+  });
   return garbage;
 }
 

@@ -34,9 +34,16 @@ struct TopicNames {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Payloads under the name of `topic` that no reader may hand on: cut off, without a body, of
-/// another encapsulation, too long, with lengths beyond their bounds, with numbers that are no
+/// The instance that garbage belongs to, as far as one can tell.
+inline constexpr std::uint32_t kGarbageKey = 1777;
+
+/// Payloads under the name of `topic` that no reader may hand on, and every reader must count: cut
+/// off, without a body, too long, with lengths beyond their bounds, with numbers that are no
 /// enumerator.
 [[nodiscard]] std::vector<Bytes> Garbage(std::string_view topic);
+
+/// Payloads whose encapsulation is none. No reader may hand them on; Cyclone DDS itself refuses
+/// them and their writer, before any of our code could count.
+[[nodiscard]] std::vector<Bytes> BadEncapsulations(std::string_view topic);
 
 }  // namespace limbcast::conformance

@@ -60,7 +60,15 @@ constexpr Row RowOf(QosProfile profile, const BusConfig& config) {
           true};
 }
 
-Duration_t ToFast(Duration duration) { return Duration_t(ToSeconds(duration)); }
+Duration_t ToFast(Duration duration) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  return {static_cast<std::int32_t>(duration.count() / kSecond_ns),
+          static_cast<std::uint32_t>(duration.count() % kSecond_ns)};
+}
+
+// A reader must not ask for less than a writer of the same configuration offers, and the vendors
+// round differently on the wire (2^-32 s).
+constexpr Duration kLeaseTolerance = milliseconds(1);
 
 // The policies that writers and readers share.
 template <typename Qos>
@@ -106,7 +114,11 @@ dds::DataWriterQos WriterQos(QosProfile profile, bool exclusive, const BusConfig
 }
 
 dds::DataReaderQos ReaderQos(QosProfile profile, bool exclusive, const BusConfig& config) {
-  auto qos = CommonQos<dds::DataReaderQos>(RowOf(profile, config), exclusive, config);
+  const Row row = RowOf(profile, config);
+  auto qos = CommonQos<dds::DataReaderQos>(row, exclusive, config);
+  if (row.leased) {
+    qos.liveliness().lease_duration = ToFast(config.stream_lease + kLeaseTolerance);
+  }
   auto& times = qos.reliable_reader_qos().times;
   times.initialAcknackDelay = ToFast(milliseconds(5));
   times.heartbeatResponseDelay = ToFast(milliseconds(1));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
@@ -118,6 +119,9 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
   void on_subscription_matched(
       DataReader* /*reader*/,
       const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override {
+    if (status.current_count_change > 0) {
+      joined_at_ = std::chrono::steady_clock::now();
+    }
     events_.Matched(status.current_count_change, status.current_count);
   }
   void on_liveliness_changed(DataReader* /*reader*/,
@@ -132,16 +136,22 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
   }
   void on_sample_lost(DataReader* /*reader*/,
                       const eprosima::fastdds::dds::SampleLostStatus& status) override {
-    events_.Lost(status.total_count_change);
+    // A writer that knew us before we knew it counts what it sent in between as ours. It is not.
+    if (std::chrono::steady_clock::now() - joined_at_.load() > kJoining) {
+      events_.Lost(status.total_count_change);
+    }
   }
   void on_sample_rejected(DataReader* /*reader*/,
                           const eprosima::fastrtps::SampleRejectedStatus& status) override {
     events_.Rejected(status.total_count_change, "resource limits of the reader");
   }
 
+  static constexpr std::chrono::seconds kJoining{1};
+
   FastParticipant& participant_;
   EndpointEvents events_;
   ReaderHandler<T> handler_;
+  std::atomic<std::chrono::steady_clock::time_point> joined_at_{};  // the last writer
   std::mutex mutex_;  // one call of the handler at a time; guards what follows
   bool closed_ = false;
   FastSample<T> sample_;
