@@ -316,7 +316,8 @@ void ComplementaryKalman::Report(const GatedSample& sample, bool use_field) {
   const Matrix3d R_ES = estimate.q_earth_sensor.toRotationMatrix();
   if (use_field) {
     const Vector3d field_ref = sample.mag_tesla * state_.inverse_field_tesla;
-    state_.field.Update(field_ref.squaredNorm(), R_ES.row(2).dot(field_ref), state_.m0_E.z(), sample.dt_s);
+    state_.field.Update(field_ref.squaredNorm(), R_ES.row(2).dot(field_ref), state_.m0_E.z(),
+                        sample.dt_s);
   }
   const double mag_absent_s = state_.gate.mag_absent_s();
   const bool field_gone = !state_.has_field || mag_absent_s > kMagneticUnusedAfter_s;

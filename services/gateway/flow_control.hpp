@@ -51,6 +51,8 @@ class FlowControl {
 
   /// Nobody answers any more: the window means nothing until somebody does.
   [[nodiscard]] bool link_lost(Time now);
+  /// Answers are still needed once the way is open: as fast as possible only.
+  [[nodiscard]] bool needs_answers() const { return as_fast_; }
   /// Says that from the outside (the way never opened).
   void LoseLink(Time now);
 

@@ -196,6 +196,11 @@ void GatewayService::BeginStreaming(Time now) {
 }
 
 std::optional<Time> GatewayService::Stream() {
+  if (!flow_->needs_answers()) {
+    // The way is open. Going on listening would cost fusion one more send for every sample.
+    state_reader_.reset();
+    skeleton_reader_.reset();
+  }
   while (!stopping_) {
     const Time now = clock_.Now();
     if (!source_.loaded()) {

@@ -104,14 +104,14 @@ Result<Recording> ReadFullBody(const Hdf5File& file, const std::string& name,
   recording.format = "full_body";
   recording.rate_hz = *rate_hz;
   std::vector<SensorTables> sensors;
+  const std::string prefix = name + "/";
   for (const std::string& group : SensorGroups(file)) {
     Result<SensorTables> sensor = ReadSensor(file, group, time_s->rows);
     if (!sensor) {
       return sensor.error();
     }
-    recording.sensors.push_back(
-        {.info = MakeReplayInfo(name + "/" + group, group, *rate_hz, options),
-         .segment = SegmentOfGroup(group)});
+    recording.sensors.push_back({.info = MakeReplayInfo(prefix + group, group, *rate_hz, options),
+                                 .segment = SegmentOfGroup(group)});
     sensor->uid = recording.sensors.back().info.sensor_uid;
     sensors.push_back(std::move(*sensor));
   }

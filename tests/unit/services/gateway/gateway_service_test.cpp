@@ -3,7 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <future>
+
 #include "common/bus/inproc/inproc_bus.hpp"
+#include "common/runtime/system_clock.hpp"
+#include "common/runtime/thread_pool.hpp"
 #include "tests/support/fake_clock.hpp"
 #include "tests/support/immediate_pool.hpp"
 #include "tests/unit/services/gateway/fake_driver.hpp"
@@ -308,6 +313,34 @@ TEST_F(GatewayServiceTest, LongStallJumpsInsteadOfBursting) {
   EXPECT_EQ(service_->Summary().time_jumps, 1U);
   EXPECT_NEAR(static_cast<double>(pipeline_.samples.size()), 21.0, 2.0);
   EXPECT_EQ(pipeline_.samples.back().measured_at, pipeline_.samples.back().published_at);
+}
+
+// For the thread sanitizer: the worker streams while others ask.
+TEST(GatewayServiceThreadsTest, CanBeAskedWhileItStreams) {
+  const runtime::SystemClock clock;
+  const auto bus = bus::inproc::MakeBus(bus::inproc::MakeHub());
+  test::FakePipeline pipeline(*bus);
+  pipeline.fusion_answers = true;
+  runtime::ThreadPool pool("gateway", 1);
+  GatewayConfig config;
+  config.pace.as_fast = true;
+  config.exit_at_end = true;
+  config.linger_s = 0.0;
+  std::promise<void> ended;
+  GatewayService service(config, std::make_unique<test::FakeDriver>(15, 5000), clock, *bus, pool,
+                         [&ended] { ended.set_value(); });
+  ASSERT_TRUE(service.Start().ok());
+  const std::future<void> end = ended.get_future();
+  const auto give_up_at = std::chrono::steady_clock::now() + 60s;
+  while (end.wait_for(1ms) != std::future_status::ready) {
+    ServiceHealth health;
+    service.FillHealth(health);
+    ASSERT_LT(std::chrono::steady_clock::now(), give_up_at);
+  }
+  service.Stop();
+  EXPECT_EQ(service.Summary().published.marg, 75'000U);
+  EXPECT_EQ(service.Summary().samples_unanswered, 0U);
+  EXPECT_EQ(pipeline.samples.size(), 75'000U);
 }
 
 }  // namespace
