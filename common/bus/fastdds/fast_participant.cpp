@@ -159,20 +159,22 @@ void FastParticipant::RaiseTypeMismatch(std::string_view short_name, const std::
   sink_->Emit({.kind = BusEventKind::kTypeMismatch,
                .topic = short_name,
                .count = 1,
-               .detail = "ours " + ours + ", theirs " + theirs});
+               .detail = "ours is " + ours + ", a peer's " + theirs});
 }
 
 std::string FastParticipant::Describe() const {
   std::string text = "Fast DDS " + std::to_string(FASTRTPS_VERSION_MAJOR) + "." +
                      std::to_string(FASTRTPS_VERSION_MINOR) + "." +
                      std::to_string(FASTRTPS_VERSION_MICRO) + ", domain " +
-                     std::to_string(config_.domain_id) + ", partition '" + config_.partition +
-                     "', interfaces " + (addresses_.empty() ? "all" : addresses_) + ", peers ";
-  if (config_.peers.empty()) {
-    return text + "none";
+                     std::to_string(config_.domain_id) + ", partition \"" + config_.partition +
+                     "\", ";
+  if (config_.network == NetworkProfile::kLoopback) {
+    text += "loopback only";
+  } else {
+    text += "interfaces " + (addresses_.empty() ? "all" : addresses_);
   }
   for (std::size_t i = 0; i < config_.peers.size(); ++i) {
-    text += (i == 0 ? "" : ",") + config_.peers[i];
+    text += (i == 0 ? ", peers " : ",") + config_.peers[i];
   }
   return text;
 }

@@ -15,6 +15,7 @@
 #include "common/bus/fastdds/fast_qos.hpp"
 #include "common/bus/fastdds/fast_type.hpp"
 #include "common/bus/reader.hpp"
+#include "common/bus/system_now.hpp"
 #include "common/bus/topics.hpp"
 #include "common/bus/wire/codec.hpp"
 #include "common/bus/wire/wire_types.hpp"
@@ -90,7 +91,7 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
     known_.insert(handle);
     events_.Sample();
     if (handler_.on_sample) {
-      handler_.on_sample(value_, {.received_at = Now()});
+      handler_.on_sample(value_, {.received_at = SystemNow()});
     }
   }
 
@@ -108,12 +109,6 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
     if (handler_.on_disposed) {
       handler_.on_disposed(value_);
     }
-  }
-
-  static Time Now() {
-    return TimeFromNanoseconds(
-        std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch())
-            .count());
   }
 
   void on_subscription_matched(
