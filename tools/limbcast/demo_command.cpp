@@ -108,6 +108,10 @@ SubCommand AddDemoCommand(service::ServiceCommandLine& line) {
       ->check(CLI::Range(0.1, 1e7));
   app->add_option("--json", options.json_path, "Write the summary there as one JSON object")
       ->type_name("FILE");
+  app->add_option("--service-set", options.service_settings,
+                  "A setting for all three services, e.g. bus.write_batching=false")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   app->add_option("--gateway-set", options.gateway_settings, "A setting for the gateway")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);

@@ -25,6 +25,7 @@ struct DemoOptions {
   std::string json_path;  ///< "" = no JSON
   std::string folder;     ///< where the executables are
   bool segment_states = false;                ///< the client listens to segment_state too
+  std::vector<std::string> service_settings;  ///< KEY=VALUE, handed to all three as --set
   std::vector<std::string> gateway_settings;  ///< KEY=VALUE, handed to the gateway as --set
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/units/units.hpp"
 
 namespace limbcast::tool {
@@ -72,7 +74,9 @@ json SummaryJson(const DemoOptions& options, const PipelineModel& model,
   const Accounting account = Account(model.health);
   std::uint64_t incomplete = 0;
   std::uint64_t skeletons_lost = 0;
+  Duration longest_step{};
   for (const auto& [id, body] : model.bodies) {
+    longest_step = std::max(longest_step, body.longest_step);
     incomplete += body.incomplete;
     skeletons_lost += body.lost;
   }
@@ -90,6 +94,7 @@ json SummaryJson(const DemoOptions& options, const PipelineModel& model,
           {"skeletons", model.skeletons()},
           {"skeletons_incomplete", incomplete},
           {"skeletons_lost", skeletons_lost},
+          {"longest_skeleton_gap_s", ToSeconds(longest_step)},
           {"skeleton_rate_hz", model.skeleton_rate_hz()},
           {"latency_us", LatencyJson(model.latencies)},
           {"orientation_error_deg", ErrorJson(model.errors)},
@@ -121,9 +126,10 @@ std::string SummaryText(const json& summary) {
   line("samples refused", refused.empty() ? "0" : refused);
   line("samples lost", summary["samples_lost"].dump());
   line("skeletons",
-       fmt::format("{} ({:.2f} a second, {} incomplete, {} lost)", summary["skeletons"].dump(),
-                   number(summary["skeleton_rate_hz"]), summary["skeletons_incomplete"].dump(),
-                   summary["skeletons_lost"].dump()));
+       fmt::format("{} ({:.2f} a second, {} incomplete, {} lost, longest gap {:.3f} s)",
+                   summary["skeletons"].dump(), number(summary["skeleton_rate_hz"]),
+                   summary["skeletons_incomplete"].dump(), summary["skeletons_lost"].dump(),
+                   number(summary["longest_skeleton_gap_s"])));
   const json& latency = summary["latency_us"];
   line("sensor to client",
        fmt::format("p50 {:.0f} us, p99 {:.0f} us, p99.9 {:.0f} us", number(latency["p50"]),

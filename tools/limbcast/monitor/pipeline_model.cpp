@@ -19,8 +19,11 @@ void PipelineModel::On(const body::Skeleton& value, Time received_at) {
     }
     body.first_received_at = received_at;
     body.first_measured_at = value.measured_at;
-  } else if (value.sequence > body.last.sequence + 1) {
-    body.lost += value.sequence - body.last.sequence - 1;
+  } else {
+    body.longest_step = std::max(body.longest_step, value.measured_at - body.last.measured_at);
+    if (value.sequence > body.last.sequence + 1) {
+      body.lost += value.sequence - body.last.sequence - 1;
+    }
   }
   ++body.skeletons;
   body.incomplete += value.complete ? 0 : 1;

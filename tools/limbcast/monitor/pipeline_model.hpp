@@ -33,6 +33,7 @@ struct BodyView {
   std::uint64_t skeletons = 0;   ///< since the first that had a tracked segment
   std::uint64_t incomplete = 0;  ///< of these, those that lacked a segment in their tick
   std::uint64_t lost = 0;        ///< gaps in the numbers of the skeletons
+  Duration longest_step{};       ///< of measured_at from one skeleton to the next
   Time first_received_at{};
   Time last_received_at{};
   Time first_measured_at{};

@@ -46,6 +46,7 @@ TEST(PipelineModelTest, GapsInTheNumbersOfSkeletonsAreCounted) {
   model.On(Skeleton(5, body::SegmentStatus::kTracked), kStart);
   model.On(Skeleton(9, body::SegmentStatus::kTracked), kStart);
   EXPECT_EQ(model.bodies.at(BodyId{1}).lost, 3U);
+  EXPECT_EQ(model.bodies.at(BodyId{1}).longest_step, 40ms);
   model.On(Skeleton(1, body::SegmentStatus::kTracked), kStart);  // posture was restarted
   EXPECT_EQ(model.bodies.at(BodyId{1}).lost, 3U);
 }
