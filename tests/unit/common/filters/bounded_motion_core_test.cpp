@@ -133,18 +133,5 @@ TEST(BoundedMotionCoreTest, SinglePrecisionFollowsDoublePrecision) {
   EXPECT_EQ(narrow.state().covariance_resets, 0U);
 }
 
-TEST(BoundedMotionCoreTest, AnUnsoundCovarianceIsReplacedAndCounted) {
-  Core core{BoundedMotionConfig()};
-  core.Start(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.4, -0.9), false);
-  core.mutable_state().P(4, 4) = -1.0;
-  for (int i = 0; core.state().slow_steps < 2; ++i) {
-    core.Update(MovingInput(0.01, i));
-  }
-  EXPECT_EQ(core.state().covariance_resets, 1U);
-  for (int i = 0; i < State::kDim; ++i) {
-    EXPECT_GE(core.state().P(i, i), 0.0);
-  }
-}
-
 }  // namespace
 }  // namespace limbcast::filters

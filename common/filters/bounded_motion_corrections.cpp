@@ -1,0 +1,144 @@
+// Notation as in bounded_motion_core.cpp: what the slow step learns from rest, bounds and field.
+#include <algorithm>
+#include <cmath>
+
+#include "common/filters/bounded_motion_core.hpp"
+#include "common/filters/bounded_motion_parts.hpp"
+
+namespace limbcast::filters {
+
+using namespace bounded_motion;  // NOLINT: the names of one class, shared by its two source files
+
+template <typename Scalar>
+void BoundedMotionCore<Scalar>::CheckField(const Means& means) {
+  State& s = state_;
+  const Scalar T = means.T;
+  const Vector3 m_b = means.m - means.R * s.b_m;
+  // Heading-free: the norm and the vertical part do not depend on heading.
+  const Scalar deviation = std::hypot(m_b.norm() - s.m_0.norm(), m_b.z() - s.m_0.z());
+  s.deviation_hold = std::max(
+      deviation, s.deviation_hold * std::exp(-T / static_cast<Scalar>(config_.deviation_hold_s)));
+  s.deviation_mean +=
+      (Scalar(1) - std::exp(-T / static_cast<Scalar>(config_.carried_jump_time_s))) *
+      (deviation - s.deviation_mean);
+  if (s.deviation_mean > static_cast<Scalar>(config_.carried_jump_threshold_ref)) {
+    const Scalar step = static_cast<Scalar>(config_.carried_jump_ref_rts) * s.deviation_mean;
+    for (int i = kBm; i < kBm + 3; ++i) {
+      s.P(i, i) = std::min(s.P(i, i) + step * step * T, static_cast<Scalar>(kMaxCarriedVariance));
+    }
+  }
+}
+
+// z observes the N neighbouring error states from `first` directly, each with the same variance.
+template <typename Scalar>
+template <int N>
+void BoundedMotionCore<Scalar>::CorrectDirect(int first, const Eigen::Matrix<Scalar, N, 1>& z,
+                                              Scalar variance) {
+  auto& P = state_.P;
+  const Eigen::Matrix<Scalar, State::kRows, N> D = P.template middleCols<N>(first);
+  Eigen::Matrix<Scalar, N, N> innovation = D.template middleRows<N>(first);
+  innovation.diagonal().array() += variance;
+  const Eigen::Matrix<Scalar, N, N> inverse = innovation.inverse();
+  const Eigen::Matrix<Scalar, State::kRows, N> K = D * inverse;
+  for (int c = 0; c < State::kDim; ++c) {
+    P.col(c).noalias() -= K * D.row(c).transpose();
+  }
+  Inject(K * z);
+}
+
+template <typename Scalar>
+void BoundedMotionCore<Scalar>::CorrectRest(Scalar T) {
+  const auto square = [](double sigma) { return static_cast<Scalar>(sigma * sigma); };
+  CorrectDirect<2>(kV, -state_.v_h, square(config_.sigma_zero_velocity_m_s));
+  CorrectDirect<3>(kBg, state_.low_g - state_.b_g, square(config_.sigma_rest_rad_s_rts) / T);
+}
+
+template <typename Scalar>
+void BoundedMotionCore<Scalar>::CorrectBounds(Scalar T) {
+  if (std::isfinite(config_.velocity_bound_m_s_rts)) {
+    const auto r = static_cast<Scalar>(config_.velocity_bound_m_s_rts);
+    CorrectDirect<2>(kV, -state_.v_h, r * r / T);
+  }
+  if (std::isfinite(config_.position_bound_m_rts)) {
+    const auto r = static_cast<Scalar>(config_.position_bound_m_rts);
+    CorrectDirect<2>(kP, -state_.p_h, r * r / T);
+  }
+}
+
+// z = m_b − m_0, H_θ = [m_b×], H_bm = R̄, H_m0 = (e_y, e_z). The magnetometer must not tilt the
+// estimate: the gain rows of δθ_x and δθ_y are zero, and with the arbitrary-gain form P − K Dᵀ − D
+// Kᵀ + K Σ Kᵀ (D = P Hᵀ) everything but the 2×2 tilt block comes out as in the optimal update.
+template <typename Scalar>
+void BoundedMotionCore<Scalar>::CorrectField(const Means& means) {
+  State& s = state_;
+  auto& P = s.P;
+  const Vector3 z = means.m_b - s.m_0;
+  const Matrix3 H_theta = Skew<Scalar>(means.m_b);
+  const Matrix3& H_bm = means.R;
+  Eigen::Matrix<Scalar, State::kRows, 3> D =
+      P.template middleCols<3>(kTheta) * H_theta.transpose() +
+      P.template middleCols<3>(kBm) * H_bm.transpose();
+  D.template rightCols<2>() += P.template middleCols<2>(kM0);
+  Matrix3 innovation =
+      H_theta * D.template middleRows<3>(kTheta) + H_bm * D.template middleRows<3>(kBm);
+  innovation.template bottomRows<2>() += D.template middleRows<2>(kM0);
+  const auto k_R = static_cast<Scalar>(config_.k_deviation_rts);
+  const auto r_m = static_cast<Scalar>(config_.sigma_mag_ref_rts);
+  const Scalar spread = k_R * s.deviation_hold;
+  innovation.diagonal().array() += (r_m * r_m + spread * spread) / means.T;
+  Matrix3 inverse = innovation.inverse();
+  const Scalar nis = z.dot(inverse * z);
+  const auto gate = static_cast<Scalar>(config_.gate_nis);
+  if (nis > gate) {
+    inverse *= gate / nis;
+  }
+  Eigen::Matrix<Scalar, State::kRows, 3> K = D * inverse;
+  const Eigen::Matrix<Scalar, 2, 2> tilt = P.template topLeftCorner<2, 2>();
+  for (int c = 0; c < State::kDim; ++c) {
+    P.col(c).noalias() -= K * D.row(c).transpose();
+  }
+  P.template topLeftCorner<2, 2>() = tilt;
+  K.template topRows<2>().setZero();
+  Inject(K * z);
+}
+
+template <typename Scalar>
+void BoundedMotionCore<Scalar>::Inject(const Eigen::Matrix<Scalar, State::kRows, 1>& dx) {
+  State& s = state_;
+  s.q_ES = Exp<Scalar>(dx.template segment<3>(kTheta)) * s.q_ES;
+  constexpr auto kMax = static_cast<Scalar>(kMaxGyroBias_rad_s);
+  s.b_g = (s.b_g + dx.template segment<3>(kBg)).cwiseMax(-kMax).cwiseMin(kMax);
+  s.v_h += dx.template segment<2>(kV);
+  s.p_h += dx.template segment<2>(kP);
+  s.b_a += dx.template segment<3>(kBa);
+  s.b_m += dx.template segment<3>(kBm);
+  s.m_0.template tail<2>() += dx.template segment<2>(kM0);
+  for (int j = 0; j < 3; ++j) {
+    s.S.col(j) += dx.template segment<3>(kS + 3 * j);
+  }
+}
+
+template <typename Scalar>
+void BoundedMotionCore<Scalar>::GuardCovariance() {
+  bool sound = true;
+  for (int i = 0; i < State::kDim; ++i) {
+    sound = sound && state_.P(i, i) >= 0 && std::isfinite(state_.P(i, i));
+  }
+  if (!sound) {
+    ResetCovariance();
+    ++state_.covariance_resets;
+  }
+}
+
+template void BoundedMotionCore<double>::CheckField(const Means&);
+template void BoundedMotionCore<double>::CorrectRest(double);
+template void BoundedMotionCore<double>::CorrectBounds(double);
+template void BoundedMotionCore<double>::CorrectField(const Means&);
+template void BoundedMotionCore<double>::GuardCovariance();
+template void BoundedMotionCore<float>::CheckField(const Means&);
+template void BoundedMotionCore<float>::CorrectRest(float);
+template void BoundedMotionCore<float>::CorrectBounds(float);
+template void BoundedMotionCore<float>::CorrectField(const Means&);
+template void BoundedMotionCore<float>::GuardCovariance();
+
+}  // namespace limbcast::filters

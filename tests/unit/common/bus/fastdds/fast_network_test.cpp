@@ -1,0 +1,92 @@
+#include "common/bus/fastdds/fast_network.hpp"
+
+#include <fastrtps/utils/IPLocator.h>
+#include <gtest/gtest.h>
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+
+namespace limbcast::bus::fastdds {
+namespace {
+
+using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
+using eprosima::fastrtps::rtps::IPLocator;
+
+std::vector<std::string> InitialPeers(const eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  std::vector<std::string> peers;
+  for (const auto& locator : qos.wire_protocol().builtin.initialPeersList) {
+    peers.push_back(IPLocator::toIPv4string(locator));
+  }
+  return peers;
+}
+
+TEST(FastNetworkTest, LoopbackIsUdpOn127AndNothingElse) {
+  const BusConfig config;
+  const auto addresses = InterfaceAddresses(config);
+  ASSERT_TRUE(addresses);
+  EXPECT_EQ(*addresses, std::vector<std::string>{"127.0.0.1"});
+  const auto qos = ParticipantQos(config, *addresses);
+  ASSERT_TRUE(qos);
+  EXPECT_FALSE(qos->transport().use_builtin_transports);
+  ASSERT_EQ(qos->transport().user_transports.size(), 1U);
+  const auto udp =
+      std::dynamic_pointer_cast<UDPv4TransportDescriptor>(qos->transport().user_transports.front());
+  ASSERT_NE(udp, nullptr);
+  EXPECT_EQ(udp->interfaceWhiteList, *addresses);
+  EXPECT_EQ(udp->maxInitialPeersRange, 64U);
+  EXPECT_EQ(InitialPeers(*qos), std::vector<std::string>{"127.0.0.1"});
+}
+
+TEST(FastNetworkTest, AnInterfaceIsFoundByNameOrAddress) {
+  BusConfig config;
+  config.network = NetworkProfile::kInterfaces;
+  for (const char* name : {"lo", "127.0.0.1"}) {
+    config.interfaces = {name};
+    const auto addresses = InterfaceAddresses(config);
+    ASSERT_TRUE(addresses) << addresses.error().message;
+    EXPECT_EQ(*addresses, std::vector<std::string>{"127.0.0.1"});
+  }
+}
+
+TEST(FastNetworkTest, AMissingInterfaceIsNamed) {
+  BusConfig config;
+  config.network = NetworkProfile::kInterfaces;
+  config.interfaces = {"lo", "nosuch0"};
+  const auto addresses = InterfaceAddresses(config);
+  ASSERT_FALSE(addresses);
+  EXPECT_EQ(addresses.error().code, ErrorCode::kUnavailable);
+  EXPECT_NE(addresses.error().message.find("nosuch0"), std::string::npos);
+}
+
+TEST(FastNetworkTest, PeersOnALanAreCalledBesideTheDiscoveryGroup) {
+  BusConfig config;
+  config.network = NetworkProfile::kLan;
+  EXPECT_TRUE(InitialPeers(*ParticipantQos(config, {})).empty()) << "the library's own group";
+  config.peers = {"127.0.0.3"};
+  EXPECT_EQ(InitialPeers(*ParticipantQos(config, {})),
+            (std::vector<std::string>{"239.255.0.1", "127.0.0.3"}));
+}
+
+TEST(FastNetworkTest, APeerWithoutAnAddressIsNamed) {
+  BusConfig config;
+  config.peers = {"no.such.host.invalid"};
+  const auto qos = ParticipantQos(config, {"127.0.0.1"});
+  ASSERT_FALSE(qos);
+  EXPECT_NE(qos.error().message.find("no.such.host.invalid"), std::string::npos);
+}
+
+TEST(FastNetworkTest, ParticipantNumbersAreUsedAgainAndGuidPrefixesAreNot) {
+  std::int32_t first = -1;
+  {
+    const ParticipantNumber a;
+    const ParticipantNumber b;
+    EXPECT_NE(a.value(), b.value());
+    first = a.value();
+  }
+  EXPECT_EQ(ParticipantNumber().value(), first);
+  const BusConfig config;
+  EXPECT_FALSE(ParticipantQos(config, {"127.0.0.1"})->wire_protocol().prefix ==
+               ParticipantQos(config, {"127.0.0.1"})->wire_protocol().prefix);
+}
+
+}  // namespace
+}  // namespace limbcast::bus::fastdds
