@@ -135,10 +135,14 @@ template void BoundedMotionCore<double>::CorrectRest(double);
 template void BoundedMotionCore<double>::CorrectBounds(double);
 template void BoundedMotionCore<double>::CorrectField(const Means&);
 template void BoundedMotionCore<double>::GuardCovariance();
+template void BoundedMotionCore<double>::Inject(
+    const Eigen::Matrix<double, BoundedMotionState<double>::kRows, 1>&);
 template void BoundedMotionCore<float>::CheckField(const Means&);
 template void BoundedMotionCore<float>::CorrectRest(float);
 template void BoundedMotionCore<float>::CorrectBounds(float);
 template void BoundedMotionCore<float>::CorrectField(const Means&);
 template void BoundedMotionCore<float>::GuardCovariance();
+template void BoundedMotionCore<float>::Inject(
+    const Eigen::Matrix<float, BoundedMotionState<float>::kRows, 1>&);
 
 }  // namespace limbcast::filters
