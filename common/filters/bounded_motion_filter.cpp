@@ -11,7 +11,7 @@
 namespace limbcast::filters {
 namespace {
 
-constexpr std::uint32_t kStateVersion = 1;
+constexpr std::uint32_t kStateVersion = 2;
 constexpr double kMagneticUnusedAfter_s = 1.0;
 constexpr double kDisturbedAbove_ref = 0.15;
 constexpr double kSaturatedRateShare = 0.2;
@@ -60,9 +60,7 @@ SampleVerdict BoundedMotionFilter<Scalar>::Update(const sensing::MargSample& sam
     return gated.verdict;
   }
   if (gated.restart) {
-    state_.heading_before_rad = math::Heading_rad(state_.estimate.q_earth_sensor);
-    state_.starting = true;
-    state_.start.Clear();
+    BeginRestart();
   }
   if (state_.starting) {
     return UpdateStart(gated);
@@ -72,13 +70,29 @@ SampleVerdict BoundedMotionFilter<Scalar>::Update(const sensing::MargSample& sam
   }
   Feed(gated, gated.mag_valid);
   Report(gated);
+  const double per_tesla = state_.reference_tesla > 0.0 ? 1.0 / state_.reference_tesla : 0.0;
+  if (state_.watchdog.Update(gated, core_.state().q_ES.template cast<double>(),
+                             state_.reference_ref, per_tesla) != AttitudeLoss::kNone) {
+    BeginRestart();
+    state_.lost = true;
+  }
   return gated.accel_valid ? SampleVerdict::kFused : SampleVerdict::kPredictedOnly;
+}
+
+template <typename Scalar>
+void BoundedMotionFilter<Scalar>::BeginRestart() {
+  state_.heading_before_rad = math::Heading_rad(state_.estimate.q_earth_sensor);
+  state_.starting = true;
+  state_.start.Clear();
+  state_.watchdog.Clear();
 }
 
 template <typename Scalar>
 SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart(const GatedSample& sample) {
   FilterEstimate& estimate = state_.estimate;
-  state_.start.Add(sample.gyro_rad_s - core_.state().b_g.template cast<double>(), sample.dt_s,
+  const Eigen::Vector3d bias_rad_s =
+      state_.lost ? Eigen::Vector3d::Zero() : core_.state().b_g.template cast<double>().eval();
+  state_.start.Add(sample.gyro_rad_s - bias_rad_s, sample.dt_s,
                    sample.accel_valid ? &sample.accel_m_s2 : nullptr,
                    sample.mag_valid ? &sample.mag_tesla : nullptr);
   const auto start = state_.start.Solve();
@@ -93,16 +107,27 @@ SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart(const GatedSample& sample
   if (!state_.start.complete(core_.config().init_time_s)) {
     return SampleVerdict::kStarting;
   }
-  const bool keep_reference = core_.state().has_field;
-  core_.Start(estimate.q_earth_sensor.template cast<Scalar>(),
-              start->has_field && !keep_reference
-                  ? Vector3(start->mag_in_earth_tesla.template cast<Scalar>())
-                  : Vector3::Zero(),
-              estimate.started);
+  // A restart keeps the field reference it has, a lost filter goes back to that of its start.
+  Eigen::Vector3d field_tesla = Eigen::Vector3d::Zero();
+  if (state_.lost) {
+    field_tesla = state_.reference_tesla * state_.reference_ref;
+  } else if (start->has_field && !core_.state().has_field) {
+    field_tesla = start->mag_in_earth_tesla;
+    RememberReference(field_tesla);
+  }
+  core_.Start(estimate.q_earth_sensor.template cast<Scalar>(), field_tesla.template cast<Scalar>(),
+              estimate.started && !state_.lost);
   estimate.started = true;
   state_.starting = false;
+  state_.lost = false;
   Report(sample);
   return SampleVerdict::kFused;
+}
+
+template <typename Scalar>
+void BoundedMotionFilter<Scalar>::RememberReference(const Eigen::Vector3d& mag_in_earth_tesla) {
+  state_.reference_tesla = mag_in_earth_tesla.norm();
+  state_.reference_ref = ReferenceField(mag_in_earth_tesla) / state_.reference_tesla;
 }
 
 // The first field that is seen says where north is: heading moves there at once.
@@ -116,6 +141,7 @@ void BoundedMotionFilter<Scalar>::AdoptField(const Eigen::Vector3d& mag_in_earth
   const Eigen::Quaterniond q_turn = math::ExpSO3({0.0, 0.0, north_rad});
   core_.TurnHeading(q_turn.template cast<Scalar>());
   core_.AdoptField((q_turn * mag_in_earth_tesla).template cast<Scalar>());
+  RememberReference(mag_in_earth_tesla);
 }
 
 // One step, or over a gap several of the nominal length with the mean rate, of which only the last

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "common/filters/attitude_watchdog.hpp"
 #include "common/filters/bounded_motion_core.hpp"
 #include "common/filters/filter.hpp"
 #include "common/filters/sample_gate.hpp"
@@ -49,16 +50,22 @@ class BoundedMotionFilter final : public OrientationFilter {
     FilterEstimate estimate;
     SampleGate gate;
     TwoVectorStart start;
+    AttitudeWatchdog watchdog;
+    Eigen::Vector3d reference_ref = Eigen::Vector3d::Zero();  // of the start, unit
+    double reference_tesla = 0.0;
     double heading_before_rad = 0.0;  // of a restart
     bool starting = true;
+    bool lost = false;  // the restart under way forgets what was learned
   };
   struct Saved {
     State state;
     BoundedMotionState<Scalar> core;
   };
 
+  void BeginRestart();
   SampleVerdict UpdateStart(const GatedSample& sample);
   void Feed(const GatedSample& sample, bool mag_valid);
+  void RememberReference(const Eigen::Vector3d& mag_in_earth_tesla);
   void AdoptField(const Eigen::Vector3d& mag_in_earth_tesla);
   void Report(const GatedSample& sample);
 

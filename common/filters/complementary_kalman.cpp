@@ -20,7 +20,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using C = ComplementaryKalmanConfig;
 
-constexpr std::uint32_t kStateVersion = 1;
+constexpr std::uint32_t kStateVersion = 2;
 constexpr double kPublishedStep_s = 0.01;
 constexpr double kFieldLowPass_hz = 10.0;
 constexpr double kMagneticUnusedAfter_s = 1.0;
@@ -87,10 +87,7 @@ SampleVerdict ComplementaryKalman::Update(const sensing::MargSample& sample) {
     return gated.verdict;
   }
   if (gated.restart) {
-    state_.heading_before_rad = math::Heading_rad(state_.estimate.q_earth_sensor);
-    state_.starting = true;
-    state_.start.Clear();
-    state_.rest.Interrupt();
+    BeginRestart();
   }
   DetectRest(gated);
   if (state_.starting) {
@@ -112,7 +109,28 @@ SampleVerdict ComplementaryKalman::Update(const sensing::MargSample& sample) {
   }
   GuardCovariance();
   Report(gated, use_field);
+  CheckAttitude(gated);
   return gated.accel_valid ? SampleVerdict::kFused : SampleVerdict::kPredictedOnly;
+}
+
+void ComplementaryKalman::BeginRestart() {
+  state_.heading_before_rad = math::Heading_rad(state_.estimate.q_earth_sensor);
+  state_.starting = true;
+  state_.start.Clear();
+  state_.rest.Interrupt();
+  state_.watchdog.Clear();
+}
+
+// A lost attitude takes with it what was learned while it was lost.
+void ComplementaryKalman::CheckAttitude(const GatedSample& sample) {
+  const Vector3d reference_ref = state_.has_field ? state_.m0_E : Vector3d::Zero().eval();
+  if (state_.watchdog.Update(sample, state_.estimate.q_earth_sensor, reference_ref,
+                             state_.inverse_field_tesla) == AttitudeLoss::kNone) {
+    return;
+  }
+  BeginRestart();
+  state_.estimate.gyro_bias_rad_s.setZero();
+  ResetCovariance();
 }
 
 SampleVerdict ComplementaryKalman::UpdateStart(const GatedSample& sample) {

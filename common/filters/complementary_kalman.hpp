@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "common/base/result.hpp"
+#include "common/filters/attitude_watchdog.hpp"
 #include "common/filters/complementary_kalman_model.hpp"
 #include "common/filters/field_monitor.hpp"
 #include "common/filters/filter.hpp"
@@ -89,6 +90,7 @@ class ComplementaryKalman final : public OrientationFilter {
     SampleGate gate;
     TwoVectorStart start;
     RestDetector rest;
+    AttitudeWatchdog watchdog;
     FieldMonitor field;
     Matrix9 P = Matrix9::Zero();
     Eigen::Matrix3d cov_accel = Eigen::Matrix3d::Zero();  // Q_a⁺ in S, (m/s²)²
@@ -111,6 +113,8 @@ class ComplementaryKalman final : public OrientationFilter {
     double ratio = 0.0;  // step / 10 ms
   };
 
+  void BeginRestart();
+  void CheckAttitude(const GatedSample& sample);
   SampleVerdict UpdateStart(const GatedSample& sample);
   void AdoptField(const Eigen::Vector3d& mag_in_earth_tesla);
   void SetStep(double dt_s);

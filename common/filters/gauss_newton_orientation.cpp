@@ -14,7 +14,7 @@
 namespace limbcast::filters {
 namespace {
 
-constexpr std::uint32_t kStateVersion = 1;
+constexpr std::uint32_t kStateVersion = 2;
 // The publications use 0.1–1 with the gyros of 2000. Leave-one-out over the twelve public BROAD
 // trials picks 0.015–0.03 for a calibrated gyro of today; 0.04 stays on the side of a worse one.
 constexpr double kGainWithNull_per_s = 0.04;
@@ -135,10 +135,7 @@ SampleVerdict GaussNewtonOrientation::Update(const sensing::MargSample& sample) 
     return gated.verdict;
   }
   if (gated.restart) {
-    state_.heading_before_rad = math::Heading_rad(state_.estimate.q_earth_sensor);
-    state_.starting = true;
-    state_.start.Clear();
-    state_.rest.Interrupt();
+    BeginRestart();
   }
   CalibrateNull(gated);
   if (state_.starting) {
@@ -165,7 +162,31 @@ SampleVerdict GaussNewtonOrientation::Update(const sensing::MargSample& sample) 
   state_.estimate.q_earth_sensor = Eigen::Quaterniond(q.w, q.x, q.y, q.z);
   SpreadVariance(gated, use_field, gain, rate_per_s);
   Report(gated, use_field);
+  CheckAttitude(gated);
   return gated.accel_valid ? SampleVerdict::kFused : SampleVerdict::kPredictedOnly;
+}
+
+void GaussNewtonOrientation::BeginRestart() {
+  state_.heading_before_rad = math::Heading_rad(state_.estimate.q_earth_sensor);
+  state_.starting = true;
+  state_.start.Clear();
+  state_.rest.Interrupt();
+  state_.watchdog.Clear();
+}
+
+// With a wrong gyro null the gain that trusts it never finds back: a lost attitude forgets the
+// null.
+void GaussNewtonOrientation::CheckAttitude(const GatedSample& sample) {
+  const Eigen::Vector3d reference_ref = state_.has_field && config_.rho > 0.0
+                                            ? state_.reference_field
+                                            : Eigen::Vector3d::Zero().eval();
+  if (state_.watchdog.Update(sample, state_.estimate.q_earth_sensor, reference_ref,
+                             state_.inverse_field_tesla) == AttitudeLoss::kNone) {
+    return;
+  }
+  BeginRestart();
+  state_.estimate.gyro_bias_rad_s.setZero();
+  state_.null_known = false;
 }
 
 SampleVerdict GaussNewtonOrientation::UpdateStart(const GatedSample& sample) {

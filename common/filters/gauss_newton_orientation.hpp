@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/base/result.hpp"
+#include "common/filters/attitude_watchdog.hpp"
 #include "common/filters/field_monitor.hpp"
 #include "common/filters/filter.hpp"
 #include "common/filters/filter_settings.hpp"
@@ -81,6 +82,7 @@ class GaussNewtonOrientation final : public OrientationFilter {
     SampleGate gate;
     TwoVectorStart start;
     RestDetector rest;
+    AttitudeWatchdog watchdog;
     FieldMonitor field;
     Eigen::Vector3d null_sum_rad_s = Eigen::Vector3d::Zero();
     Eigen::Vector3d reference_field = Eigen::Vector3d::UnitY();  // n, unit
@@ -94,6 +96,8 @@ class GaussNewtonOrientation final : public OrientationFilter {
     bool starting = true;
   };
 
+  void BeginRestart();
+  void CheckAttitude(const GatedSample& sample);
   SampleVerdict UpdateStart(const GatedSample& sample);
   void AdoptField(const Eigen::Vector3d& mag_in_earth_tesla);
   void CalibrateNull(const GatedSample& sample);
