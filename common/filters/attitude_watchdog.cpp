@@ -9,9 +9,8 @@
 namespace limbcast::filters {
 namespace {
 
-constexpr double kForceMean_s = 3.0;
-constexpr double kMostForce_g = 3.0;  // so that an absurd reading is forgotten in seconds
-constexpr double kTilted_g = 0.35;
+constexpr double kFreeMean_s = 3.0;
+constexpr double kTilted_m_s2 = 0.35 * kGravity_m_s2;
 constexpr double kTiltedFor_s = 4.0;
 
 constexpr double kNorthMean_s = 4.0;
@@ -23,11 +22,15 @@ constexpr double kLongestLook_s = 1.0;  // a slow stream still needs several loo
 
 }  // namespace
 
-bool AttitudeWatchdog::TiltLost(const Eigen::Vector3d& force_E_g, double T) {
-  const double excess = std::max(force_E_g.norm() / kMostForce_g, 1.0);
-  state_.low_force_g += std::min(T / kForceMean_s, 1.0) * (force_E_g / excess - state_.low_force_g);
-  const bool tilted = (state_.low_force_g - Eigen::Vector3d::UnitZ()).norm() > kTilted_g;
-  state_.tilted_s = tilted ? state_.tilted_s + T : 0.0;
+bool AttitudeWatchdog::TiltLost(double T) {
+  if (state_.free_count == 0) {
+    return false;
+  }
+  const Eigen::Vector3d mean_m_s2 = state_.free_sum_m_s2 / static_cast<double>(state_.free_count);
+  state_.free_sum_m_s2.setZero();
+  state_.free_count = 0;
+  state_.low_free_m_s2 += std::min(T / kFreeMean_s, 1.0) * (mean_m_s2 - state_.low_free_m_s2);
+  state_.tilted_s = state_.low_free_m_s2.norm() > kTilted_m_s2 ? state_.tilted_s + T : 0.0;
   return state_.tilted_s > kTiltedFor_s;
 }
 
@@ -52,7 +55,7 @@ AttitudeLoss AttitudeWatchdog::Look(const GatedSample& sample,
                                     const Eigen::Vector3d& reference_ref, double per_tesla) {
   const double T = std::min(state_.pending_s, kLongestLook_s);
   state_.pending_s = 0.0;
-  if (sample.accel_valid && TiltLost(q_earth_sensor * (sample.accel_m_s2 / kGravity_m_s2), T)) {
+  if (TiltLost(T)) {
     return AttitudeLoss::kTilt;
   }
   if (sample.mag_valid && reference_ref.y() > kClean_ref &&

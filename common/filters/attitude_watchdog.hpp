@@ -12,11 +12,13 @@ enum class AttitudeLoss : std::uint8_t { kNone, kTilt, kHeading };
 
 /// What AttitudeWatchdog remembers; copied as bytes when a filter saves its state.
 struct AttitudeWatchdogState {
-  Eigen::Vector3d low_force_g = Eigen::Vector3d::UnitZ();  // mean specific force in E
-  Eigen::Vector2d low_north = Eigen::Vector2d::UnitY();    // mean field direction in E, clean only
-  double pending_s = 0.0;                                  // since the last look
+  Eigen::Vector3d low_free_m_s2 = Eigen::Vector3d::Zero();  // mean free acceleration in E
+  Eigen::Vector3d free_sum_m_s2 = Eigen::Vector3d::Zero();  // since the last look
+  Eigen::Vector2d low_north = Eigen::Vector2d::UnitY();     // mean field direction in E, clean only
+  double pending_s = 0.0;                                   // since the last look
   double tilted_s = 0.0;
   double clean_s = 0.0;
+  std::uint32_t free_count = 0;  // of free_sum_m_s2
 };
 
 /// Notices an attitude that is lost, so that a filter that has come to believe in nonsense
@@ -24,25 +26,30 @@ struct AttitudeWatchdogState {
 /// wrong for good. It needs no filter's covariance:
 ///
 /// - tilt: a worn sensor stays in a bounded region, so the mean specific force over some seconds is
-///   gravity. Turned to the earth frame by a right attitude it is (0, 0, 1) g; 0.35 g away from
-///   that for 4 s is lost.
+///   gravity: with a right attitude, the mean free acceleration is zero. 0.35 g for 4 s is lost.
 /// - heading: a field that has had the reference's norm and dip for 12 s is the earth's; when it
 /// has
 ///   pointed elsewhere than north by more than 15° in the mean of that time, heading is lost. A
 ///   disturbed field never accuses.
 ///
-/// A healthy filter is an order of magnitude away from either. Looks at 20 samples a second.
-/// Thread-compatible.
+/// A healthy filter is an order of magnitude away from either. Free accelerations of all samples
+/// count (20 a second would alias fast shaking), fields of 20 a second. Thread-compatible.
 class AttitudeWatchdog {
  public:
-  /// @param sample           of which only usable channels are looked at.
-  /// @param q_earth_sensor   the attitude after that sample, unit.
-  /// @param reference_ref    earth field at start (0, north, up), unit length; zero: none known.
-  /// @param per_tesla        1 / its norm in tesla.
+  /// @param sample    of which only usable channels are looked at.
+  /// @param q_earth_sensor       the attitude after that sample, unit.
+  /// @param free_accel_m_s2      its acceleration in E with gravity removed by that attitude.
+  /// @param reference_ref  earth field at start (0, north, up), unit length; zero: none known.
+  /// @param per_tesla      1 / its norm in tesla.
   [[nodiscard]] AttitudeLoss Update(const GatedSample& sample,
                                     const Eigen::Quaterniond& q_earth_sensor,
+                                    const Eigen::Vector3d& free_accel_m_s2,
                                     const Eigen::Vector3d& reference_ref, double per_tesla) {
     state_.pending_s += sample.dt_s;
+    if (sample.accel_valid && free_accel_m_s2.squaredNorm() < kMostFree_m_s2 * kMostFree_m_s2) {
+      state_.free_sum_m_s2 += free_accel_m_s2;
+      ++state_.free_count;
+    }
     return state_.pending_s < kLookEvery_s ? AttitudeLoss::kNone
                                            : Look(sample, q_earth_sensor, reference_ref, per_tesla);
   }
@@ -54,10 +61,11 @@ class AttitudeWatchdog {
 
  private:
   static constexpr double kLookEvery_s = 0.05;
+  static constexpr double kMostFree_m_s2 = 200.0;  // more is an impact or nonsense
 
   AttitudeLoss Look(const GatedSample& sample, const Eigen::Quaterniond& q_earth_sensor,
                     const Eigen::Vector3d& reference_ref, double per_tesla);
-  [[nodiscard]] bool TiltLost(const Eigen::Vector3d& force_E_g, double T);
+  [[nodiscard]] bool TiltLost(double T);
   [[nodiscard]] bool HeadingLost(const Eigen::Vector3d& field_E_ref,
                                  const Eigen::Vector3d& reference_ref, double T);
 

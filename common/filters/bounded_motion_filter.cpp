@@ -16,6 +16,7 @@ constexpr double kMagneticUnusedAfter_s = 1.0;
 constexpr double kDisturbedAbove_ref = 0.15;
 constexpr double kSaturatedRateShare = 0.2;
 constexpr int kMostSubSteps = 500;
+constexpr double kLostStart_s = 2.0;  // nobody waits for rest: the mean over motion needs longer
 
 }  // namespace
 
@@ -71,8 +72,9 @@ SampleVerdict BoundedMotionFilter<Scalar>::Update(const sensing::MargSample& sam
   Feed(gated, gated.mag_valid);
   Report(gated);
   const double per_tesla = state_.reference_tesla > 0.0 ? 1.0 / state_.reference_tesla : 0.0;
-  if (state_.watchdog.Update(gated, core_.state().q_ES.template cast<double>(),
-                             state_.reference_ref, per_tesla) != AttitudeLoss::kNone) {
+  if (state_.watchdog.Update(gated, state_.estimate.q_earth_sensor,
+                             state_.estimate.free_accel_in_earth_m_s2, state_.reference_ref,
+                             per_tesla) != AttitudeLoss::kNone) {
     BeginRestart();
     state_.lost = true;
   }
@@ -104,7 +106,8 @@ SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart(const GatedSample& sample
   const double heading_rad = start->has_field ? 0.0 : state_.heading_before_rad;
   estimate.q_earth_sensor = math::NearestSign(
       math::ExpSO3({0.0, 0.0, heading_rad}) * start->q_earth_sensor, estimate.q_earth_sensor);
-  if (!state_.start.complete(core_.config().init_time_s)) {
+  if (!state_.start.complete(
+          std::max(core_.config().init_time_s, state_.lost ? kLostStart_s : 0.0))) {
     return SampleVerdict::kStarting;
   }
   // A restart keeps the field reference it has, a lost filter goes back to that of its start.

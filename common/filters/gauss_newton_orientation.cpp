@@ -180,7 +180,8 @@ void GaussNewtonOrientation::CheckAttitude(const GatedSample& sample) {
   const Eigen::Vector3d reference_ref = state_.has_field && config_.rho > 0.0
                                             ? state_.reference_field
                                             : Eigen::Vector3d::Zero().eval();
-  if (state_.watchdog.Update(sample, state_.estimate.q_earth_sensor, reference_ref,
+  if (state_.watchdog.Update(sample, state_.estimate.q_earth_sensor,
+                             state_.estimate.free_accel_in_earth_m_s2, reference_ref,
                              state_.inverse_field_tesla) == AttitudeLoss::kNone) {
     return;
   }

@@ -50,6 +50,7 @@ function(limbcast_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE limbcast_options ${ARG_DEPS} limbcast_test_support
     GTest::gmock GTest::gtest GTest::gtest_main)
+  limbcast_reuse_precompiled(${name} limbcast_precompiled_test)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   set(properties LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
   if(ARG_SERIAL)
