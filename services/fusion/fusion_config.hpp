@@ -19,7 +19,7 @@ namespace limbcast::fusion {
 
 /// Which filters run on a segment.
 struct FilterChoice {
-  std::string name = "tqt";  ///< published as slot 0
+  std::string name = "bmf";  ///< published as slot 0
   std::string beside;        ///< run on the same samples and published as slot 1; "" = none
   bool operator==(const FilterChoice&) const = default;
 };

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kExamples =
     "  limbcast-fusion                                  one host, Cyclone DDS, default filter\n"
     "  limbcast-fusion --config deploy/config/fusion.toml --dds fast --domain 7\n"
-    "  limbcast-fusion --set fusion.workers=4 --set filter.name=tqt --set filter.beside=tqt";
+    "  limbcast-fusion --set fusion.workers=4 --set filter.name=tqt --set filter.beside=bmf";
 
 }  // namespace
 

@@ -22,7 +22,7 @@ FusionConfig ReadText(std::string_view text, std::string* message) {
 TEST(FusionConfigTest, DefaultsAreValid) {
   const FusionConfig config;
   EXPECT_TRUE(Validate(config, MakeFilterFactory(config)).ok());
-  EXPECT_EQ(config.filter.name, "tqt");
+  EXPECT_EQ(config.filter.name, "bmf");
 }
 
 TEST(FusionConfigTest, ReadsFiltersBySegmentAndTheirSettings) {
@@ -40,8 +40,8 @@ rho = 0.3
                                        &message);
   EXPECT_EQ(message, "");
   EXPECT_EQ(config.workers, 3U);
-  EXPECT_EQ(config.filter, (FilterChoice{"tqt", "tqt"}));
-  EXPECT_EQ(config.segment_filters.at(body::Segment::kRightHand), (FilterChoice{"tqt", ""}));
+  EXPECT_EQ(config.filter, (FilterChoice{"bmf", "tqt"}));
+  EXPECT_EQ(config.segment_filters.at(body::Segment::kRightHand), (FilterChoice{"bmf", ""}));
   EXPECT_EQ(config.filter_settings.at("tqt"), (std::vector<filters::Setting>{{"rho", "0.3"}}));
   EXPECT_TRUE(Validate(config, MakeFilterFactory(config)).ok());
 }

@@ -88,6 +88,13 @@ inline FilterFactory CountingFilters() {
   };
 }
 
+/// The settings as shipped, but for a filter that CountingFilters makes.
+inline FusionConfig CountingConfig() {
+  FusionConfig config;
+  config.filter.name = "tqt";
+  return config;
+}
+
 inline constexpr Duration kPeriod = std::chrono::milliseconds(10);
 
 /// Everything a sender and a listener need beside the service. Thread-safe where the bus is.

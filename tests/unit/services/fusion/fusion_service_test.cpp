@@ -36,7 +36,7 @@ class FusionServiceTest : public ::testing::Test {
 
   FusionWorld world;
   test_support::ImmediatePool pool{2};
-  FusionService service{FusionConfig{}, world.clock, *world.inside, pool, CountingFilters()};
+  FusionService service{CountingConfig(), world.clock, *world.inside, pool, CountingFilters()};
 };
 
 TEST_F(FusionServiceTest, EverySampleOfAnAssignedSensorIsAnsweredByOneState) {
@@ -262,7 +262,7 @@ class HeldPool final : public runtime::WorkerPool {
 TEST(FusionOverloadTest, SamplesThatFindTheQueueFullAreCountedAndNotLost) {
   FusionWorld world;
   HeldPool pool;
-  FusionConfig config;
+  FusionConfig config = CountingConfig();
   config.queue_capacity = 64;
   FusionService service(config, world.clock, *world.inside, pool, CountingFilters());
   ASSERT_TRUE(service.Start().ok());
@@ -287,7 +287,7 @@ TEST(FusionOverloadTest, SamplesThatFindTheQueueFullAreCountedAndNotLost) {
 TEST(FusionStartTest, StopWithoutStartAndStopTwiceDoNothing) {
   FusionWorld world;
   test_support::ImmediatePool pool;
-  FusionService service(FusionConfig{}, world.clock, *world.inside, pool, CountingFilters());
+  FusionService service(CountingConfig(), world.clock, *world.inside, pool, CountingFilters());
   service.Stop();
   ASSERT_TRUE(service.Start().ok());
   service.Stop();

@@ -21,8 +21,8 @@ std::map<std::uint32_t, std::vector<body::SegmentState>> RunWith(std::size_t wor
                                                                  bool real_filter) {
   FusionWorld world;
   runtime::ThreadPool pool("fusion", workers);
-  FusionService service(FusionConfig{}, world.clock, *world.inside, pool,
-                        real_filter ? FilterFactory{} : CountingFilters());
+  FusionService service(real_filter ? FusionConfig{} : CountingConfig(), world.clock, *world.inside,
+                        pool, real_filter ? FilterFactory{} : CountingFilters());
   EXPECT_TRUE(service.Start().ok());
   for (std::uint32_t b = 1; b <= kBodies; ++b) {
     world.Assign(b, {{b * 10, body::Segment::kHead},
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(CountingAndShippedFilter, FusionWorkersTest, ::testing:
 TEST(FusionThreadsTest, EverySampleIsAccountedForWhileEverythingChanges) {
   FusionWorld world;
   runtime::ThreadPool pool("fusion", 3);
-  FusionService service(FusionConfig{}, world.clock, *world.inside, pool, CountingFilters());
+  FusionService service(CountingConfig(), world.clock, *world.inside, pool, CountingFilters());
   ASSERT_TRUE(service.Start().ok());
   constexpr std::uint32_t kEach = 2'000;
   for (std::uint32_t b = 1; b <= 4; ++b) {
