@@ -74,9 +74,14 @@ std::string Plot(const ReportHead& head, std::span<const OrientationResult* cons
                        kHeight - 6.0, t);
   }
   for (const OrientationResult* r : results) {
-    svg += fmt::format("<polyline fill='none' stroke='{}' points='", ColourOf(head, r->filter));
+    // A path that begins anew after a stretch without truth.
+    svg += fmt::format("<path fill='none' stroke='{}' d='", ColourOf(head, r->filter));
+    bool drawing = false;
     for (const ErrorPoint& p : r->points) {
-      svg += fmt::format("{:.1f},{:.1f} ", x(p.time_s), y(p.total_deg));
+      if (p.known) {
+        svg += fmt::format("{}{:.1f},{:.1f} ", drawing ? 'L' : 'M', x(p.time_s), y(p.total_deg));
+      }
+      drawing = p.known;
     }
     svg += "'/>";
   }
@@ -102,8 +107,9 @@ std::string OrientationHtml(const ReportHead& head, std::span<const OrientationR
   std::string html =
       "<!doctype html><html lang='en'><head><meta charset='utf-8'><title>Orientation "
       "errors</title><style>body{font:14px sans-serif;max-width:920px;margin:2em auto}svg{width:"
-      "100%}text{font-size:10px;fill:#555}pre{overflow-x:auto}</style></head><body>"
-      "<h1>Orientation errors</h1><p>Total error over time; grey: not scored.</p><pre>";
+      "100%}text{font-size:10px;fill:#555}pre{overflow-x:auto;font-size:12px}</style></head><body>"
+      "<h1>Orientation errors</h1><p>Total error over time; grey: not scored; gaps: truth not "
+      "known.</p><pre>";
   html += Escaped(OrientationTable(head, results)) + "</pre>";
   std::vector<std::string> trials;
   for (const OrientationResult& r : results) {

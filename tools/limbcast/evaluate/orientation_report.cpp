@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <string_view>
 
 namespace limbcast::tool {
 namespace {
@@ -57,10 +59,26 @@ OrientationMean MeanOf(std::span<const OrientationResult> results, const std::st
   return mean;
 }
 
+std::vector<std::string> OutputLeads(const ReportHead& head) {
+  constexpr std::string_view kKey = "output_lead_s=";
+  std::vector<std::string> leads;
+  for (const std::string& setting : head.settings) {
+    const std::size_t at = setting.find(kKey);
+    const bool is_key = at == 0 || (at != std::string::npos && setting[at - 1] == '.');
+    if (is_key && std::strtod(setting.c_str() + at + kKey.size(), nullptr) != 0.0) {
+      leads.push_back(setting);
+    }
+  }
+  return leads;
+}
+
 std::string OrientationTable(const ReportHead& head, std::span<const OrientationResult> results) {
   std::string text;
   for (const std::string& setting : head.settings) {
     text += fmt::format("changed: {}\n", setting);
+  }
+  for (const std::string& lead : OutputLeads(head)) {
+    text += fmt::format("output lead is not 0: {} (predicted ahead of each sample)\n", lead);
   }
   text += fmt::format("{:<48} {:<10} {:>8} {:>8} {:>8} {:>8} {:>7} {:>9}\n", "trial", "filter",
                       "total", "heading", "inclin.", "max", "NEES", "samples/s");
@@ -114,7 +132,10 @@ nlohmann::json OrientationJson(const ReportHead& head, std::span<const Orientati
       filters[filter][group.key] = MeanJson(MeanOf(results, filter, group.group));
     }
   }
-  return {{"filters", filters}, {"trials", trials}, {"settings", head.settings}};
+  return {{"filters", filters},
+          {"trials", trials},
+          {"settings", head.settings},
+          {"output_leads", OutputLeads(head)}};
 }
 
 Status SaveText(const std::filesystem::path& path, const std::string& text) {

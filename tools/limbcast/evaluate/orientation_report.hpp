@@ -33,6 +33,10 @@ struct ReportHead {
   std::vector<std::string> settings;  ///< changed ones; empty = the shipped defaults
 };
 
+/// The settings that make a filter predict ahead of its samples ("output_lead_s" other than 0): a
+/// reader must know it, because other filters are compared without.
+[[nodiscard]] std::vector<std::string> OutputLeads(const ReportHead& head);
+
 /// A table for a terminal: a row for each trial and filter, then the means.
 [[nodiscard]] std::string OrientationTable(const ReportHead& head,
                                            std::span<const OrientationResult> results);

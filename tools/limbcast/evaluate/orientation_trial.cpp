@@ -21,13 +21,12 @@ double Nees(const filters::FilterEstimate& estimate, const Eigen::Quaterniond& q
   return error_rad.dot(P.ldlt().solve(error_rad));
 }
 
-ErrorPoint PointOf(const OrientationError& error, double time_s, double trace_rad2, bool scored) {
+ErrorPoint PointOf(const OrientationError& error, double time_s, double trace_rad2) {
   return {.time_s = time_s,
           .total_deg = units::DegFromRad(error.total_rad),
           .heading_deg = units::DegFromRad(error.heading_rad),
           .inclination_deg = units::DegFromRad(error.inclination_rad),
-          .sigma_deg = units::DegFromRad(std::sqrt(std::max(trace_rad2, 0.0))),
-          .scored = scored};
+          .sigma_deg = units::DegFromRad(std::sqrt(std::max(trace_rad2, 0.0)))};
 }
 
 }  // namespace
@@ -59,6 +58,7 @@ std::vector<OrientationTrial> TrialsOf(const gateway::Recording& recording,
       trial.samples.push_back(sample);
       trial.q_reference.push_back(known ? found->second->q_earth_sensor
                                         : Eigen::Quaterniond::Identity());
+      trial.known.push_back(known ? 1 : 0);
       trial.scored.push_back(known && moving ? 1 : 0);
     }
   }
@@ -84,6 +84,7 @@ OrientationResult EvaluateTrial(const OrientationTrial& trial, filters::Orientat
   result.q_earth_sensor.reserve(trial.samples.size());
   const std::size_t plot_every = std::max<std::size_t>(trial.samples.size() / kPlotPoints, 1);
   double nees_sum = 0.0;
+  std::uint64_t nees_count = 0;
   std::chrono::duration<double> busy{0.0};
   for (std::size_t row = 0; row < trial.samples.size(); ++row) {
     const auto before = std::chrono::steady_clock::now();
@@ -100,17 +101,21 @@ OrientationResult EvaluateTrial(const OrientationTrial& trial, filters::Orientat
     const OrientationError error = ErrorBetween(estimate.q_earth_sensor, trial.q_reference[row]);
     if (scored) {
       result.errors.Add(error);
+    }
+    if (scored && estimate.started) {  // before, there is no covariance
       nees_sum += Nees(estimate, trial.q_reference[row]);
+      ++nees_count;
     }
     if (row % plot_every == 0) {
       const double time_s =
           ToSeconds(trial.samples[row].measured_at - trial.samples.front().measured_at);
-      result.points.push_back(
-          PointOf(error, time_s, estimate.cov_orientation_rad2.trace(), scored));
+      result.points.push_back(PointOf(error, time_s, estimate.cov_orientation_rad2.trace()));
+      result.points.back().scored = scored;
+      result.points.back().known = trial.known[row] != 0;
     }
   }
-  if (result.errors.count() > 0) {
-    result.mean_nees = nees_sum / static_cast<double>(result.errors.count());
+  if (nees_count > 0) {
+    result.mean_nees = nees_sum / static_cast<double>(nees_count);
   }
   result.samples_per_s =
       busy.count() > 0.0 ? static_cast<double>(trial.samples.size()) / busy.count() : 0.0;

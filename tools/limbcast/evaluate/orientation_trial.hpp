@@ -18,7 +18,8 @@ namespace limbcast::tool {
 struct OrientationTrial {
   std::string name;  ///< of the recording; with several sensors "<recording>.<sensor>"
   std::vector<sensing::MargSample> samples;
-  std::vector<Eigen::Quaterniond> q_reference;
+  std::vector<Eigen::Quaterniond> q_reference;  ///< identity where the truth is not known
+  std::vector<std::uint8_t> known;              ///< 1: the truth is known
   std::vector<std::uint8_t>
       scored;  ///< 1: truth known, and a motion phase if the recording says so
 };
@@ -39,6 +40,7 @@ struct ErrorPoint {
   double inclination_deg = 0.0;
   double sigma_deg = 0.0;  ///< √trace of the reported covariance
   bool scored = false;
+  bool known = true;  ///< false: nothing to compare with, the errors mean nothing
 };
 
 /// What a filter made of a trial.
@@ -48,7 +50,7 @@ struct OrientationResult {
   std::string filter;
   ErrorStatistics errors;
   VerdictCounters verdicts;
-  double mean_nees = 0.0;  ///< mean of eᵀP⁻¹e over the scored rows; 3 = consistent
+  double mean_nees = 0.0;  ///< mean of eᵀP⁻¹e over the scored rows after the start; 3 is right
   std::uint64_t disturbed_rows = 0;
   double samples_per_s = 0.0;                      ///< of wall time, filter only
   std::vector<Eigen::Quaterniond> q_earth_sensor;  ///< one for each sample, w ≥ 0

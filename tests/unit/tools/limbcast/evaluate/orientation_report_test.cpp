@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -45,6 +46,15 @@ TEST(OrientationReportTest, TheTableNamesChangedSettingsTrialsAndMeans) {
   EXPECT_NE(table.find("3.000"), std::string::npos);
 }
 
+TEST(OrientationReportTest, AnOutputLeadIsStatedUnlessItIsZero) {
+  EXPECT_NE(OrientationTable(kHead, kResults).find("output lead is not 0: bmf.output_lead_s=0.004"),
+            std::string::npos);
+  EXPECT_EQ(OrientationJson(kHead, kResults)["output_leads"].size(), 1U);
+  for (const char* setting : {"output_lead_s=0", "bmf.output_lead_s=0.0", "no_output_lead_s=1"}) {
+    EXPECT_TRUE(OutputLeads({.filters = {"bmf"}, .settings = {setting}}).empty()) << setting;
+  }
+}
+
 TEST(OrientationReportTest, JsonHoldsTheSameFigures) {
   const nlohmann::json json = OrientationJson(kHead, kResults);
   EXPECT_NEAR(json["filters"]["bmf"]["all"]["total_deg"].get<double>(), 3.0, 1e-9);
@@ -62,6 +72,20 @@ TEST(OrientationReportTest, HtmlIsOnePageWithAPlotForEachTrialAndEscapesNames) {
   EXPECT_EQ(plots, 3U);
   EXPECT_EQ(html.find("<c>"), std::string::npos);
   EXPECT_EQ(html.find("http"), std::string::npos);  // nothing is fetched from elsewhere
+}
+
+TEST(OrientationReportTest, ThePlotHasAGapWhereTheTruthIsNotKnown) {
+  std::vector<OrientationResult> results = {kResults[0]};
+  results[0].points = {{.time_s = 0.0, .total_deg = 1.0},
+                       {.time_s = 1.0, .total_deg = 1.0},
+                       {.time_s = 2.0, .total_deg = 170.0, .known = false},
+                       {.time_s = 3.0, .total_deg = 1.0},
+                       {.time_s = 4.0, .total_deg = 1.0}};
+  const std::string html = OrientationHtml(kHead, results);
+  const std::string path = html.substr(html.rfind(" d='") + 4);
+  const std::string drawn = path.substr(0, path.find('\''));
+  EXPECT_EQ(std::count(drawn.begin(), drawn.end(), 'M'), 2);
+  EXPECT_EQ(std::count(drawn.begin(), drawn.end(), 'L'), 2);
 }
 
 TEST(OrientationReportTest, SavesQuaternionsAsCsvAndSaysWhatItCannotWrite) {

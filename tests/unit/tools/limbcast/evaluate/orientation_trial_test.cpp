@@ -71,6 +71,29 @@ TEST(OrientationTrialTest, EvaluatesFromTheFirstSampleWithARowForEach) {
   EXPECT_FALSE(result.points.empty());
 }
 
+TEST(OrientationTrialTest, NothingIsPlottedOrJudgedWhereNothingIsKnown) {
+  const auto trials = TrialsOf(AtRest(200, 0.0), "still");
+  auto filter = filters::MakeFilter("bmf");
+  ASSERT_TRUE(filter.ok());
+  const OrientationResult result = EvaluateTrial(trials.at(0), **filter);
+  ASSERT_EQ(result.points.size(), 200U);
+  for (std::size_t row = 0; row < 200; ++row) {
+    EXPECT_EQ(result.points[row].known, row % 4 != 3) << row;
+  }
+}
+
+// Before the start there is no covariance to judge an error by.
+TEST(OrientationTrialTest, NeesCountsFromTheStartOfTheFilter) {
+  gateway::Recording recording = AtRest(200, 0.0);
+  recording.movement.clear();  // all of it is scored
+  const auto trials = TrialsOf(recording, "still");
+  auto filter = filters::MakeFilter("ckf");
+  ASSERT_TRUE(filter.ok());
+  const OrientationResult result = EvaluateTrial(trials.at(0), **filter);
+  EXPECT_EQ(result.errors.count(), 150U);
+  EXPECT_LT(result.mean_nees, 1.0);
+}
+
 TEST(OrientationTrialTest, GroupsTrialsByTheirName) {
   EXPECT_EQ(GroupOf("03_undisturbed_slow_rotation_C"), TrialGroup::kUndisturbed);
   EXPECT_EQ(GroupOf("24_disturbed_tapping_A"), TrialGroup::kDisturbed);
