@@ -1,7 +1,7 @@
 #include "tools/limbcast/evaluate_command.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -15,6 +15,8 @@
 #include "services/gateway/drivers/replay/recording_reader.hpp"
 #include "tools/limbcast/evaluate/orientation_report.hpp"
 #include "tools/limbcast/evaluate/orientation_trial.hpp"
+#include "tools/limbcast/evaluate/progress_bar.hpp"
+#include "tools/limbcast/evaluate_published_command.hpp"
 
 namespace limbcast::tool {
 namespace {
@@ -30,17 +32,6 @@ struct EvaluateOptions {
 int Refuse(const Error& error) {
   fmt::print(stderr, "limbcast evaluate: {}\n", error.message);
   return 2;
-}
-
-// One line that overwrites itself; nothing when stderr is no terminal.
-void ShowProgress(std::size_t done, std::size_t all, const std::string& what) {
-  if (::isatty(STDERR_FILENO) == 0) {
-    return;
-  }
-  constexpr std::size_t kBar = 24;
-  const std::size_t filled = all == 0 ? kBar : kBar * done / all;
-  fmt::print(stderr, "\r[{:#>{}}{:.>{}}] {}/{} {:<56.56}{}", "", filled, "", kBar - filled, done,
-             all, what, done == all ? "\n" : "");
 }
 
 Result<std::vector<std::filesystem::path>> FilesOf(const std::string& data) {
@@ -85,6 +76,33 @@ Result<std::vector<filters::Setting>> SettingsFor(const std::string& filter,
   return settings;
 }
 
+// A filter's own settings must be of a filter that runs: a slip of the pen is no wish.
+Status CheckOwners(const EvaluateOptions& options) {
+  for (const std::string& text : options.settings) {
+    const std::string key = text.substr(0, text.find('='));
+    const std::size_t dot = key.find('.');
+    const std::string owner = key.substr(0, dot);
+    if (dot != std::string::npos &&
+        std::find(options.filters.begin(), options.filters.end(), owner) == options.filters.end()) {
+      return Error{ErrorCode::kInvalidArgument,
+                   fmt::format("--set {}: the filters are {}, none is '{}'", text,
+                               fmt::join(options.filters, ", "), owner)};
+    }
+  }
+  return Ok();
+}
+
+// Before anything is computed: a folder that cannot be written to is known at once.
+Status MakeFolder(const std::string& folder) {
+  std::error_code failed;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, failed) &&
+      !std::filesystem::create_directories(folder, failed)) {
+    return Error{ErrorCode::kUnavailable,
+                 "--out " + folder + " cannot be made: " + failed.message()};
+  }
+  return Ok();
+}
+
 struct PreparedFilter {
   std::string name;
   std::vector<filters::Setting> settings;
@@ -92,6 +110,9 @@ struct PreparedFilter {
 
 Result<std::vector<PreparedFilter>> PrepareFilters(const EvaluateOptions& options) {
   std::vector<PreparedFilter> prepared;
+  if (const Status checked = CheckOwners(options); !checked) {
+    return checked.error();
+  }
   for (const std::string& name : options.filters) {
     auto settings = SettingsFor(name, options.settings);
     if (!settings) {
@@ -134,6 +155,9 @@ int EvaluateOrientation(const EvaluateOptions& options) {
   const auto files = FilesOf(options.data);
   if (!files) {
     return Refuse(files.error());
+  }
+  if (const Status made = MakeFolder(options.out); !made) {
+    return Refuse(made.error());
   }
   std::vector<OrientationResult> results;
   const std::size_t all = files->size() * prepared->size();
@@ -185,7 +209,10 @@ SubCommand AddEvaluateCommand(service::ServiceCommandLine& line) {
   app->add_option("--out", options->out,
                   "Folder for <filter>/<trial>.csv (w,x,y,z) and report.html");
   app->add_option("--json", options->json, "File for the figures");
-  return {.app = evaluate, .run = [options] { return EvaluateOrientation(*options); }};
+  const SubCommand published = AddEvaluatePublishedCommand(*evaluate);
+  return {.app = evaluate, .run = [options, published] {
+            return published.app->parsed() ? published.run() : EvaluateOrientation(*options);
+          }};
 }
 
 }  // namespace limbcast::tool
