@@ -21,7 +21,7 @@ Eigen::Vector3d LowPass::Filter(const Eigen::Vector3d& x) {
     x1_ = x2_ = y1_ = y2_ = x;
     begun_ = true;
   }
-  const Eigen::Vector3d y = b0_ * (x + 2.0 * x1_ + x2_) - a1_ * y1_ - a2_ * y2_;
+  Eigen::Vector3d y = b0_ * (x + 2.0 * x1_ + x2_) - a1_ * y1_ - a2_ * y2_;
   x2_ = x1_;
   x1_ = x;
   y2_ = y1_;
