@@ -115,6 +115,10 @@ SubCommand AddDemoCommand(service::ServiceCommandLine& line) {
   app->add_option("--gateway-set", options.gateway_settings, "A setting for the gateway")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  app->add_option("--fusion-set", options.fusion_settings,
+                  "A setting for the fusion service, e.g. filter.name=ckf")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   app->add_option("--bin", options.folder, "Where the executables are (default: beside this one)")
       ->type_name("FOLDER");
   return {.app = app, .run = [&line, arguments] { return RunDemo(line, *arguments); }};

@@ -27,6 +27,7 @@ struct DemoOptions {
   bool segment_states = false;                ///< the client listens to segment_state too
   std::vector<std::string> service_settings;  ///< KEY=VALUE, handed to all three as --set
   std::vector<std::string> gateway_settings;  ///< KEY=VALUE, handed to the gateway as --set
+  std::vector<std::string> fusion_settings;   ///< KEY=VALUE, handed to fusion as --set
 };
 
 [[nodiscard]] std::string_view ToString(DemoDds dds);

@@ -64,6 +64,11 @@ std::vector<std::string> ArgumentsOf(Part part, const DemoOptions& options) {
       add({"--set", setting});
     }
   }
+  if (part == Part::kFusion) {
+    for (const std::string& setting : options.fusion_settings) {
+      add({"--set", setting});
+    }
+  }
   return arguments;
 }
 

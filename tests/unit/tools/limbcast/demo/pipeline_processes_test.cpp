@@ -48,6 +48,17 @@ class PipelineProcessesTest : public ::testing::Test {
   DemoOptions options_;
 };
 
+TEST_F(PipelineProcessesTest, SettingsGoToTheServiceTheyAreFor) {
+  options_.fusion_settings = {"filter.name=ckf"};
+  options_.gateway_settings = {"simulator.persons=2"};
+  EXPECT_EQ(ArgumentsOf(Part::kFusion, options_).back(), "filter.name=ckf");
+  EXPECT_EQ(ArgumentsOf(Part::kGateway, options_).back(), "simulator.persons=2");
+  EXPECT_THAT(ArgumentsOf(Part::kPosture, options_),
+              ::testing::Not(::testing::Contains(HasSubstr("filter.name"))));
+  EXPECT_THAT(ArgumentsOf(Part::kGateway, options_),
+              ::testing::Not(::testing::Contains(HasSubstr("filter.name"))));
+}
+
 TEST_F(PipelineProcessesTest, RecordingIsPlayedToItsEndAsFastAsItGoes) {
   options_.recording = "/data/a b.hdf5";
   const auto arguments = ArgumentsOf(Part::kGateway, options_);
