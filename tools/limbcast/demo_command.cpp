@@ -38,7 +38,7 @@ Status Complete(service::ServiceCommandLine& line, DemoArguments& arguments) {
     return file.error();
   }
   auto bus_config = line.ReadBus(*file);
-  if (const Status read = file->Finish(); !read) {
+  if (Status read = file->Finish(); !read) {
     return read;
   }
   if (!bus_config) {

@@ -128,7 +128,7 @@ Status PipelineProcesses::Supervise() {
       continue;
     }
     if (const auto state = child->Poll()) {
-      if (const Status handled = Ended(static_cast<Part>(i), *state); !handled) {
+      if (Status handled = Ended(static_cast<Part>(i), *state); !handled) {
         return handled;
       }
     }
