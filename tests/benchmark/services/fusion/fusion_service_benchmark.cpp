@@ -65,7 +65,7 @@ void Count(benchmark::State& state) {
 void BM_FilterAlone(benchmark::State& state) {
   std::vector<std::unique_ptr<filters::OrientationFilter>> filters;
   for (std::uint32_t i = 0; i < kBodies * kSensors; ++i) {
-    filters.push_back(std::move(*filters::MakeFilter("tqt")));
+    filters.push_back(std::move(*filters::MakeFilter(FusionConfig{}.filter.name)));
   }
   Samples samples(kBodies * kSensors);
   for (auto _ : state) {
