@@ -36,12 +36,16 @@ void BoundedMotionCore<Scalar>::Start(const Eigen::Quaternion<Scalar>& q_earth_s
   state_.w_ES_S.setZero();
   state_.deviation_hold = 0;
   state_.deviation_mean = 0;
+  state_.east_mean = 0;
+  state_.east_scatter2 = 0;
+  state_.scatter_s = 0;
   state_.b_m.setZero();
   ClearSums();
   if (!keep_learned) {
     state_.b_g.setZero();
     state_.b_a.setZero();
     state_.S.setZero();
+    state_.m_0.setZero();
     state_.has_field = false;
   }
   ResetCovariance();
@@ -62,6 +66,8 @@ void BoundedMotionCore<Scalar>::AdoptField(const Vector3& mag_in_earth) {
   state_.m_ref = norm;
   state_.m_0 = Vector3(0, std::hypot(mag_in_earth.x(), mag_in_earth.y()), mag_in_earth.z()) / norm;
   state_.has_field = true;
+  state_.east_mean = 0;
+  state_.scatter_s = 0;
 }
 
 template <typename Scalar>

@@ -50,6 +50,8 @@ struct BoundedMotionState {
 
   // field check and rest detector
   Scalar deviation_hold, deviation_mean;
+  Scalar east_mean, east_scatter2;  // of the field without the carried one, units of m_ref
+  Scalar scatter_s;                 // time of motion behind them, at most scatter_time_s
   Vector3 low_g, low_a;
   Scalar rest_time_s;
   bool low_started;

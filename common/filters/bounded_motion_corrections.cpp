@@ -21,6 +21,14 @@ void BoundedMotionCore<Scalar>::CheckField(const Means& means) {
   s.deviation_mean +=
       (Scalar(1) - std::exp(-T / static_cast<Scalar>(config_.carried_jump_time_s))) *
       (deviation - s.deviation_mean);
+  // At rest the same place is seen again and again, which says nothing about others.
+  // A plain mean over the first `scatter_time_s` of motion, fading from then on.
+  const Scalar moving_s = at_rest() ? Scalar(0) : T;
+  s.scatter_s = std::min(s.scatter_s + moving_s, static_cast<Scalar>(config_.scatter_time_s));
+  const Scalar share = moving_s / std::max(s.scatter_s, T);
+  s.east_mean += share * (m_b.x() - s.east_mean);
+  const Scalar off_mean = m_b.x() - s.east_mean;
+  s.east_scatter2 += share * (off_mean * off_mean - s.east_scatter2);
   if (s.deviation_mean > static_cast<Scalar>(config_.carried_jump_threshold_ref)) {
     const Scalar step = static_cast<Scalar>(config_.carried_jump_ref_rts) * s.deviation_mean;
     for (int i = kBm; i < kBm + 3; ++i) {
@@ -50,7 +58,12 @@ template <typename Scalar>
 void BoundedMotionCore<Scalar>::CorrectRest(Scalar T) {
   const auto square = [](double sigma) { return static_cast<Scalar>(sigma * sigma); };
   CorrectDirect<2>(kV, -state_.v_h, square(config_.sigma_zero_velocity_m_s));
-  CorrectDirect<3>(kBg, state_.low_g - state_.b_g, square(config_.sigma_rest_rad_s_rts) / T);
+  const Vector3 turn_rad_s = state_.low_g - state_.b_g;
+  const auto persistence_s = static_cast<Scalar>(config_.rest_turn_persistence_s);
+  CorrectDirect<3>(kBg, turn_rad_s,
+                   (square(config_.sigma_rest_rad_s_rts) +
+                    Scalar(2) * persistence_s * turn_rad_s.squaredNorm()) /
+                       T);
 }
 
 template <typename Scalar>
@@ -61,13 +74,18 @@ void BoundedMotionCore<Scalar>::CorrectBounds(Scalar T) {
   }
   if (std::isfinite(config_.position_bound_m_rts)) {
     const auto r = static_cast<Scalar>(config_.position_bound_m_rts);
-    CorrectDirect<2>(kP, -state_.p_h, r * r / T);
+    const Scalar persistence_s = static_cast<Scalar>(config_.position_persistence_s);
+    CorrectDirect<2>(kP, -state_.p_h,
+                     (r * r + Scalar(2) * persistence_s * state_.p_h.squaredNorm()) / T);
   }
 }
 
 // z = m_b − m_0, H_θ = [m_b×], H_bm = R̄, H_m0 = (e_y, e_z). The magnetometer must not tilt the
-// estimate: the gain rows of δθ_x and δθ_y are zero, and with the arbitrary-gain form P − K Dᵀ − D
-// Kᵀ + K Σ Kᵀ (D = P Hᵀ) everything but the 2×2 tilt block comes out as in the optimal update.
+// estimate: the gain rows of δθ_x and δθ_y are zero; by default so are those of all that gravity
+// and rest can teach, which leaves heading, carried field and reference (kMagnetic). With the
+// arbitrary-gain form P − K Dᵀ − D Kᵀ + K Σ Kᵀ (D = P Hᵀ) everything but the block of the states
+// without gain, which stays, comes out as in the optimal update (S. F. Schmidt, "Application of
+// state-space methods to navigation problems", 1966).
 template <typename Scalar>
 void BoundedMotionCore<Scalar>::CorrectField(const Means& means) {
   State& s = state_;
@@ -84,21 +102,37 @@ void BoundedMotionCore<Scalar>::CorrectField(const Means& means) {
   innovation.template bottomRows<2>() += D.template middleRows<2>(kM0);
   const auto k_R = static_cast<Scalar>(config_.k_deviation_rts);
   const auto r_m = static_cast<Scalar>(config_.sigma_mag_ref_rts);
-  const Scalar spread = k_R * s.deviation_hold;
-  innovation.diagonal().array() += (r_m * r_m + spread * spread) / means.T;
+  const auto floor = static_cast<Scalar>(config_.scatter_floor_ref);
+  const Scalar spread2 =
+      s.deviation_hold * s.deviation_hold + std::max(s.east_scatter2 - floor * floor, Scalar(0));
+  innovation.diagonal().array() += (r_m * r_m + k_R * k_R * spread2) / means.T;
   Matrix3 inverse = innovation.inverse();
   const Scalar nis = z.dot(inverse * z);
   const auto gate = static_cast<Scalar>(config_.gate_nis);
   if (nis > gate) {
     inverse *= gate / nis;
   }
-  Eigen::Matrix<Scalar, State::kRows, 3> K = D * inverse;
-  const Eigen::Matrix<Scalar, 2, 2> tilt = P.template topLeftCorner<2, 2>();
-  for (int c = 0; c < State::kDim; ++c) {
-    P.col(c).noalias() -= K * D.row(c).transpose();
+  const Eigen::Matrix<Scalar, State::kRows, 3> K_optimal = D * inverse;
+  Eigen::Matrix<Scalar, State::kRows, 3> K = K_optimal;
+  if (config_.mag_heading_only) {
+    K.setZero();
+    for (const int a : kMagnetic) {
+      K.row(a) = K_optimal.row(a);
+      P.col(a).noalias() -= K_optimal * D.row(a).transpose();
+    }
+    for (const int a : kMagnetic) {
+      for (int c = 0; c < State::kDim; ++c) {
+        P(a, c) = P(c, a);
+      }
+    }
+  } else {
+    const Eigen::Matrix<Scalar, 2, 2> tilt = P.template topLeftCorner<2, 2>();
+    for (int c = 0; c < State::kDim; ++c) {
+      P.col(c).noalias() -= K_optimal * D.row(c).transpose();
+    }
+    P.template topLeftCorner<2, 2>() = tilt;
+    K.template topRows<2>().setZero();
   }
-  P.template topLeftCorner<2, 2>() = tilt;
-  K.template topRows<2>().setZero();
   Inject(K * z);
 }
 
@@ -106,6 +140,7 @@ template <typename Scalar>
 void BoundedMotionCore<Scalar>::Inject(const Eigen::Matrix<Scalar, State::kRows, 1>& dx) {
   State& s = state_;
   s.q_ES = Exp<Scalar>(dx.template segment<3>(kTheta)) * s.q_ES;
+  s.east_mean -= s.m_0.y() * dx(2);  // the mean turns with the heading it was seen in
   constexpr auto kMax = static_cast<Scalar>(kMaxGyroBias_rad_s);
   s.b_g = (s.b_g + dx.template segment<3>(kBg)).cwiseMax(-kMax).cwiseMin(kMax);
   s.v_h += dx.template segment<2>(kV);

@@ -199,7 +199,10 @@ void BoundedMotionFilter<Scalar>::Report(const GatedSample& sample) {
   }
   estimate.q_earth_sensor = math::NearestSign(q_ES, estimate.q_earth_sensor);
   estimate.gyro_bias_rad_s = s.b_g.template cast<double>();
-  estimate.cov_orientation_rad2 = s.P.template topLeftCorner<3, 3>().template cast<double>();
+  const Eigen::Vector3d late_rad =
+      core_.config().sigma_time_s * (q_ES * estimate.w_earth_sensor_in_sensor_rad_s);
+  estimate.cov_orientation_rad2 =
+      s.P.template topLeftCorner<3, 3>().template cast<double>() + late_rad * late_rad.transpose();
   estimate.at_rest = core_.at_rest();
   const double mag_absent_s = state_.gate.mag_absent_s();
   const bool field_gone = !s.has_field || mag_absent_s > kMagneticUnusedAfter_s;

@@ -19,6 +19,7 @@ inline constexpr int kBa = 10;
 inline constexpr int kBm = 13;
 inline constexpr int kS = 16;
 inline constexpr int kM0 = 25;
+inline constexpr int kMagnetic[6] = {2, kBm, kBm + 1, kBm + 2, kM0, kM0 + 1};
 
 inline constexpr double kMaxGyroBias_rad_s = 2.0 * 3.14159265358979323846 / 180.0;
 inline constexpr double kRestLowPass_s = 0.5;

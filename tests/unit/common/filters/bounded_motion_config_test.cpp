@@ -21,6 +21,16 @@ TEST(BoundedMotionConfigTest, AnUnboundedSensorIsAllowed) {
   EXPECT_TRUE(Validate(config).ok());
 }
 
+TEST(BoundedMotionConfigTest, ThePlainFilterHasNoElementOfTheGuard) {
+  const BoundedMotionConfig plain = PlainBoundedMotionConfig();
+  EXPECT_FALSE(plain.mag_heading_only);
+  EXPECT_EQ(plain.scatter_floor_ref, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(plain.position_persistence_s, 0.0);
+  EXPECT_EQ(plain.rest_turn_persistence_s, 0.0);
+  EXPECT_EQ(plain.walk_reference_ref_rts, 0.0);
+  EXPECT_EQ(plain.sigma_time_s, 0.0);
+}
+
 TEST(BoundedMotionConfigTest, ARefusalNamesFieldValueAndRange) {
   BoundedMotionConfig config;
   config.slow_rate_hz = 0.0;
