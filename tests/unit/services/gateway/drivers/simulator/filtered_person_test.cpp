@@ -71,6 +71,21 @@ TEST(FilteredPersonTest, TqtStaysWithinThreeDegreesBesideIron) {
   }
 }
 
+TEST(FilteredPersonTest, BmfStaysWithinOneAndAHalfDegreesBesideIron) {
+  SimulatorConfig config;
+  config.duration_s = 60.0;
+  const auto tracked = Track(config, "bmf");
+  Print(config, tracked);
+  double square_rad2 = 0.0;
+  int count = 0;
+  for (const Tracked& t : tracked) {
+    EXPECT_LE(t.rms_rad(), 3.0 * kDeg);
+    square_rad2 += t.square_rad2;
+    count += t.count;
+  }
+  EXPECT_LE(std::sqrt(square_rad2 / count), 1.5 * kDeg);
+}
+
 TEST(FilteredPersonTest, TqtIsBetterWithoutErrorsAndIron) {
   SimulatorConfig config;
   config.duration_s = 30.0;
