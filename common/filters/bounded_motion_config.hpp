@@ -105,6 +105,8 @@ struct BoundedMotionConfig {
   /// How well the sensor's time stamps are known. An orientation that is late by this turns with
   /// the rate: only the reported covariance grows, by (σ ω)². Range: [0, 0.1].
   double sigma_time_s = 0.003;
+
+  bool operator==(const BoundedMotionConfig&) const = default;
 };
 
 /// The same filter as the design study has it, without the guard against learning in a distorted

@@ -4,60 +4,122 @@
 #include <cstdint>
 
 #include "common/filters/bounded_motion_config.hpp"
+#include "common/filters/lanes.hpp"
 
 namespace limbcast::filters {
 
-/// One reading as the core takes it. What is not usable is left out by its flag, never by a number.
+/// One reading as the core takes it, of one sensor or of as many as Scalar has lanes (lanes.hpp).
+/// What is not usable is left out by its flag, never by a number. Nothing but Scalar, flags too.
 template <typename Scalar>
 struct BoundedMotionInput {
+  using Vector3 = Eigen::Matrix<Scalar, 3, 1, Eigen::DontAlign>;
   Scalar dt_s = 0;
-  Eigen::Matrix<Scalar, 3, 1> gyro_rad_s;
-  Eigen::Matrix<Scalar, 3, 1> accel_m_s2;
-  Eigen::Matrix<Scalar, 3, 1> mag;  ///< any unit, always the same
-  bool accel_valid = true;
-  bool mag_valid = true;
-  bool rest_allowed = true;  ///< false: the gyro value is not a reading
+  Vector3 gyro_rad_s;
+  Vector3 accel_m_s2;
+  Vector3 mag;  ///< any unit, always the same
+  Scalar accel_valid = 1;
+  Scalar mag_valid = 1;
+  Scalar rest_allowed = 1;  ///< 0: the gyro value is not a reading
+  Scalar present = 1;       ///< 0 leaves a lane of a batch as it is
+};
+
+/// What every sample changes.
+template <typename Scalar>
+struct BoundedMotionFastState {
+  using Vector3 = Eigen::Matrix<Scalar, 3, 1, Eigen::DontAlign>;
+  using Matrix3 = Eigen::Matrix<Scalar, 3, 3, Eigen::DontAlign>;
+
+  Eigen::Quaternion<Scalar, Eigen::DontAlign> q_ES;
+  Vector3 w_ES_S;  // last rate, corrected
+
+  // sums since the last slow step
+  Matrix3 sum_R;
+  Vector3 sum_f, sum_m;
+  Eigen::Matrix<Scalar, 3, 9, Eigen::DontAlign> sum_W;  // Σ R ω'_j dt
+  Scalar sum_w2, sum_t;
+  Scalar n, n_f, n_m;  // samples
+
+  // rest detector
+  Vector3 low_g, low_a;
+  Scalar rest_time_s;
+  Scalar low_started;  // flag
 };
 
 /// Everything the core remembers; trivially copyable, so that it can be saved, restored and
-/// compared.
+/// compared. Nothing but Scalar, flags and counts too, without gaps between them.
 ///
 /// Error convention: R_true = Exp(δθ)·R̂ (earth frame), every other error is truth − estimate.
 /// Order of the error vector: δθ 0–2, δb_g 3–5, δv_h 6–7, δp_h 8–9, δb_a 10–12, δb_m 13–15, δS
 /// 16–24 (by columns), δm_0 25–26 (north, up).
 template <typename Scalar>
-struct BoundedMotionState {
+struct BoundedMotionState : BoundedMotionFastState<Scalar> {
   static constexpr int kDim = 27;
   static constexpr int kRows = 28;  // padded, so that every column starts aligned
-  using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
-  using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
+  using Vector3 = typename BoundedMotionFastState<Scalar>::Vector3;
+  using Matrix3 = typename BoundedMotionFastState<Scalar>::Matrix3;
 
-  Eigen::Matrix<Scalar, kRows, kDim> P;  // symmetric in its first kDim rows, zero below
-  Eigen::Quaternion<Scalar> q_ES;
   Vector3 b_g, b_a, b_m;
   Matrix3 S;
-  Eigen::Matrix<Scalar, 2, 1> v_h, p_h;
-  Vector3 m_0;   // reference field, units of |m| at start: (0, north, up)
-  Scalar m_ref;  // |m| at start, unit of the input
-  bool has_field;
+  Eigen::Matrix<Scalar, 2, 1, Eigen::DontAlign> v_h, p_h;
+  Vector3 m_0;       // reference field, units of |m| at start: (0, north, up)
+  Scalar m_ref;      // |m| at start, unit of the input
+  Scalar has_field;  // flag
+  Scalar sum_extra_theta;
 
-  // sums of the fast loop since the last slow step
-  Matrix3 sum_R;
-  Vector3 sum_f, sum_m;
-  Eigen::Matrix<Scalar, 3, 9> sum_W;  // Σ R ω'_j dt
-  Scalar sum_w2, sum_t, sum_extra_theta;
-  std::int32_t n, n_f, n_m;
-
-  // field check and rest detector
+  // field check
   Scalar deviation_hold, deviation_mean;
   Scalar east_mean, east_scatter2;  // of the field without the carried one, units of m_ref
   Scalar scatter_s;                 // time of motion behind them, at most scatter_time_s
-  Vector3 low_g, low_a;
-  Scalar rest_time_s;
-  bool low_started;
-  Vector3 w_ES_S;  // last rate, corrected
-  std::uint64_t covariance_resets;
-  std::uint32_t slow_steps;
+  Scalar covariance_resets;
+  Scalar slow_steps;       // exact up to 2^24 in single precision
+  Scalar symmetrised_ago;  // slow steps
+
+  // symmetric in its first kDim rows, zero below
+  Eigen::Matrix<Scalar, kRows, kDim, Eigen::DontAlign> P;
+};
+
+/// The steps of BoundedMotionCore on a state that belongs to somebody else: the algorithm, for one
+/// sensor or for several lanes.
+template <typename Scalar>
+class BoundedMotionStep {
+ public:
+  using State = BoundedMotionState<Scalar>;
+  using Input = BoundedMotionInput<Scalar>;
+  using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+  using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
+  using Mask = lanes::MaskOf<Scalar>;
+
+  BoundedMotionStep(const BoundedMotionConfig& config, State& state)
+      : config_(config), state_(state) {}
+
+  /// The two steps of one sample: integrate, and correct when a slow step is complete.
+  void Update(const Input& input);
+
+  void ResetCovariance();
+  void ClearSums();
+  [[nodiscard]] Mask AtRest() const { return state_.rest_time_s > Scalar(kRestAfter_s); }
+
+  static constexpr double kRestAfter_s = 1.5;
+
+ private:
+  struct Means;
+
+  void Integrate(const Input& input);
+  void DetectRest(const Input& input);
+  void SlowStep();
+  void Propagate(const Means& means);
+  void CheckField(const Means& means);
+  void CorrectRest(Scalar T);
+  void CorrectBounds(Scalar T);
+  void CorrectField(const Means& means);
+  template <int N>
+  void CorrectDirect(Mask where, int first, const Eigen::Matrix<Scalar, N, 1>& z, Scalar variance);
+  void Inject(const Eigen::Matrix<Scalar, State::kRows, 1>& dx);
+  void Symmetrise();
+  void GuardCovariance();
+
+  const BoundedMotionConfig& config_;
+  State& state_;
 };
 
 /// The bounded-motion multi-rate error-state Kalman filter of one sensor, without time stamps and
@@ -69,8 +131,7 @@ class BoundedMotionCore {
  public:
   using State = BoundedMotionState<Scalar>;
   using Input = BoundedMotionInput<Scalar>;
-  using Vector3 = typename State::Vector3;
-  using Matrix3 = typename State::Matrix3;
+  using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 
   /// @param config  valid.
   explicit BoundedMotionCore(const BoundedMotionConfig& config);
@@ -84,7 +145,7 @@ class BoundedMotionCore {
              bool keep_learned);
 
   /// The two steps of one sample: integrate, and correct when a slow step is complete.
-  void Update(const Input& input);
+  void Update(const Input& input) { step().Update(input); }
 
   /// The field reference from the first usable magnetometer readings, when the start had none:
   /// heading stays where it is.
@@ -99,34 +160,20 @@ class BoundedMotionCore {
 
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] State& mutable_state() { return state_; }
-  [[nodiscard]] bool at_rest() const { return state_.rest_time_s > kRestAfter_s; }
+  [[nodiscard]] bool at_rest() const {
+    return state_.rest_time_s > static_cast<Scalar>(BoundedMotionStep<Scalar>::kRestAfter_s);
+  }
   [[nodiscard]] const BoundedMotionConfig& config() const { return config_; }
 
-  static constexpr Scalar kRestAfter_s = Scalar(1.5);
-
  private:
-  struct Means;
-
-  void Integrate(const Input& input);
-  void DetectRest(const Input& input);
-  void SlowStep();
-  void Propagate(const Means& means);
-  void CheckField(const Means& means);
-  void CorrectRest(Scalar T);
-  void CorrectBounds(Scalar T);
-  void CorrectField(const Means& means);
-  template <int N>
-  void CorrectDirect(int first, const Eigen::Matrix<Scalar, N, 1>& z, Scalar variance);
-  void Inject(const Eigen::Matrix<Scalar, State::kRows, 1>& dx);
-  void GuardCovariance();
-  void ResetCovariance();
-  void ClearSums();
+  [[nodiscard]] BoundedMotionStep<Scalar> step() { return {config_, state_}; }
 
   BoundedMotionConfig config_;
   State state_;
-  Scalar slow_period_s_;
 };
 
+extern template class BoundedMotionStep<double>;
+extern template class BoundedMotionStep<float>;
 extern template class BoundedMotionCore<double>;
 extern template class BoundedMotionCore<float>;
 

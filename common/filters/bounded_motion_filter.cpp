@@ -56,29 +56,43 @@ Status BoundedMotionFilter<Scalar>::RestoreState(std::span<const std::byte> in) 
 
 template <typename Scalar>
 SampleVerdict BoundedMotionFilter<Scalar>::Update(const sensing::MargSample& sample) {
-  const GatedSample gated = state_.gate.Pass(sample);
-  if (!gated.usable()) {
-    return gated.verdict;
+  return Pass(sample) == SampleStep::kNone ? gated_.verdict : StepAlone();
+}
+
+template <typename Scalar>
+SampleStep BoundedMotionFilter<Scalar>::Pass(const sensing::MargSample& sample) {
+  gated_ = state_.gate.Pass(sample);
+  if (!gated_.usable()) {
+    return SampleStep::kNone;
   }
-  if (gated.restart) {
+  const Scalar has_field = core_.state().has_field;
+  input_.dt_s = static_cast<Scalar>(gated_.dt_s);
+  input_.gyro_rad_s = gated_.gyro_rad_s.template cast<Scalar>();
+  input_.accel_m_s2 = gated_.accel_m_s2.template cast<Scalar>();
+  input_.mag = gated_.mag_tesla.template cast<Scalar>();
+  input_.rest_allowed = gated_.gyro_measured && !gated_.gap ? Scalar(1) : Scalar(0);
+  input_.accel_valid = gated_.accel_valid ? Scalar(1) : Scalar(0);
+  input_.mag_valid = gated_.mag_valid ? has_field : Scalar(0);
+  const bool adopts = gated_.mag_valid && has_field == Scalar(0);
+  const bool plain = !gated_.restart && !state_.starting && !adopts && !gated_.gap &&
+                     !gated_.gyro_saturated && (gated_.gyro_measured || gated_.gyro_held);
+  return plain ? SampleStep::kPlain : SampleStep::kSpecial;
+}
+
+template <typename Scalar>
+SampleVerdict BoundedMotionFilter<Scalar>::StepAlone() {
+  if (gated_.restart) {
     BeginRestart();
   }
   if (state_.starting) {
-    return UpdateStart(gated);
+    return UpdateStart();
   }
-  if (gated.mag_valid && !core_.state().has_field) {
-    AdoptField(core_.state().q_ES.template cast<double>() * gated.mag_tesla);
+  if (gated_.mag_valid && core_.state().has_field == Scalar(0)) {
+    AdoptField(core_.state().q_ES.template cast<double>() * gated_.mag_tesla);
+    input_.mag_valid = core_.state().has_field;
   }
-  Feed(gated, gated.mag_valid);
-  Report(gated);
-  const double per_tesla = state_.reference_tesla > 0.0 ? 1.0 / state_.reference_tesla : 0.0;
-  if (state_.watchdog.Update(gated, state_.estimate.q_earth_sensor,
-                             state_.estimate.free_accel_in_earth_m_s2, state_.reference_ref,
-                             per_tesla) != AttitudeLoss::kNone) {
-    BeginRestart();
-    state_.lost = true;
-  }
-  return gated.accel_valid ? SampleVerdict::kFused : SampleVerdict::kPredictedOnly;
+  Feed();
+  return Report();
 }
 
 template <typename Scalar>
@@ -89,8 +103,21 @@ void BoundedMotionFilter<Scalar>::BeginRestart() {
   state_.watchdog.Clear();
 }
 
+// A lost attitude takes with it what was learned while it was lost.
 template <typename Scalar>
-SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart(const GatedSample& sample) {
+void BoundedMotionFilter<Scalar>::CheckAttitude() {
+  const double per_tesla = state_.reference_tesla > 0.0 ? 1.0 / state_.reference_tesla : 0.0;
+  if (state_.watchdog.Update(gated_, state_.estimate.q_earth_sensor,
+                             state_.estimate.free_accel_in_earth_m_s2, state_.reference_ref,
+                             per_tesla) != AttitudeLoss::kNone) {
+    BeginRestart();
+    state_.lost = true;
+  }
+}
+
+template <typename Scalar>
+SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart() {
+  const GatedSample& sample = gated_;
   FilterEstimate& estimate = state_.estimate;
   const Eigen::Vector3d bias_rad_s =
       state_.lost ? Eigen::Vector3d::Zero() : core_.state().b_g.template cast<double>().eval();
@@ -114,7 +141,7 @@ SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart(const GatedSample& sample
   Eigen::Vector3d field_tesla = Eigen::Vector3d::Zero();
   if (state_.lost) {
     field_tesla = state_.reference_tesla * state_.reference_ref;
-  } else if (start->has_field && !core_.state().has_field) {
+  } else if (start->has_field && core_.state().has_field == Scalar(0)) {
     field_tesla = start->mag_in_earth_tesla;
     RememberReference(field_tesla);
   }
@@ -123,7 +150,7 @@ SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart(const GatedSample& sample
   estimate.started = true;
   state_.starting = false;
   state_.lost = false;
-  Report(sample);
+  static_cast<void>(Report());
   return SampleVerdict::kFused;
 }
 
@@ -150,13 +177,13 @@ void BoundedMotionFilter<Scalar>::AdoptField(const Eigen::Vector3d& mag_in_earth
 // One step, or over a gap several of the nominal length with the mean rate, of which only the last
 // one has readings.
 template <typename Scalar>
-void BoundedMotionFilter<Scalar>::Feed(const GatedSample& sample, bool mag_valid) {
-  BoundedMotionInput<Scalar> input;
+void BoundedMotionFilter<Scalar>::Feed() {
+  const GatedSample& sample = gated_;
+  BoundedMotionInput<Scalar> input = input_;
   const bool blind = sample.gyro_absent() && !sample.gyro_held;
-  input.gyro_rad_s = blind ? core_.state().b_g : Vector3(sample.gyro_rad_s.template cast<Scalar>());
-  input.accel_m_s2 = sample.accel_m_s2.template cast<Scalar>();
-  input.mag = sample.mag_tesla.template cast<Scalar>();
-  input.rest_allowed = sample.gyro_measured && !sample.gap;
+  if (blind) {
+    input.gyro_rad_s = core_.state().b_g;
+  }
   double variance_rad2 = 0.0;
   int steps = 1;
   if (sample.gap) {
@@ -171,18 +198,19 @@ void BoundedMotionFilter<Scalar>::Feed(const GatedSample& sample, bool mag_valid
   }
   core_.InflateAttitude(static_cast<Scalar>(variance_rad2));
   input.dt_s = static_cast<Scalar>(sample.dt_s / steps);
-  input.accel_valid = false;
-  input.mag_valid = false;
+  input.accel_valid = Scalar(0);
+  input.mag_valid = Scalar(0);
   for (int i = 1; i < steps; ++i) {
     core_.Update(input);
   }
-  input.accel_valid = sample.accel_valid;
-  input.mag_valid = mag_valid && core_.state().has_field;
+  input.accel_valid = input_.accel_valid;
+  input.mag_valid = input_.mag_valid;
   core_.Update(input);
 }
 
 template <typename Scalar>
-void BoundedMotionFilter<Scalar>::Report(const GatedSample& sample) {
+SampleVerdict BoundedMotionFilter<Scalar>::Report() {
+  const GatedSample& sample = gated_;
   FilterEstimate& estimate = state_.estimate;
   const BoundedMotionState<Scalar>& s = core_.state();
   const double lead_s = core_.config().output_lead_s;
@@ -205,17 +233,19 @@ void BoundedMotionFilter<Scalar>::Report(const GatedSample& sample) {
       s.P.template topLeftCorner<3, 3>().template cast<double>() + late_rad * late_rad.transpose();
   estimate.at_rest = core_.at_rest();
   const double mag_absent_s = state_.gate.mag_absent_s();
-  const bool field_gone = !s.has_field || mag_absent_s > kMagneticUnusedAfter_s;
+  const bool has_field = s.has_field > Scalar(0);
+  const bool field_gone = !has_field || mag_absent_s > kMagneticUnusedAfter_s;
   const bool disturbed = static_cast<double>(s.deviation_hold) > kDisturbedAbove_ref;
   estimate.magnetic_state = field_gone  ? MagneticState::kUnused
                             : disturbed ? MagneticState::kDisturbed
                                         : MagneticState::kClean;
-  estimate.heading = s.has_field && mag_absent_s <= kMagneticMemory_s
-                         ? HeadingReference::kMagnetic
-                         : HeadingReference::kArbitrary;
+  estimate.heading = has_field && mag_absent_s <= kMagneticMemory_s ? HeadingReference::kMagnetic
+                                                                    : HeadingReference::kArbitrary;
   estimate.degraded = sample.gap || sample.gyro_saturated || !sample.accel_valid ||
                       (sample.gyro_absent() && state_.gate.gyro_seen()) ||
-                      (s.has_field && field_gone);
+                      (has_field && field_gone);
+  CheckAttitude();
+  return sample.accel_valid ? SampleVerdict::kFused : SampleVerdict::kPredictedOnly;
 }
 
 template class BoundedMotionFilter<double>;

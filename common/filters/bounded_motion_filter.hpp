@@ -43,6 +43,37 @@ class BoundedMotionFilter final : public OrientationFilter {
 
   [[nodiscard]] const BoundedMotionCore<Scalar>& core() const { return core_; }
 
+  using Config = BoundedMotionConfig;
+  using Number = Scalar;
+  using CoreInput = BoundedMotionInput<Scalar>;
+  using CoreState = BoundedMotionState<Scalar>;
+
+  /// Update in parts, for a batch that steps the core of several filters at once; as in
+  /// GaussNewtonOrientation.
+  [[nodiscard]] SampleStep Pass(const sensing::MargSample& sample);
+  [[nodiscard]] const CoreInput& core_input() const { return input_; }
+  SampleVerdict StepAlone();
+  /// After none.
+  [[nodiscard]] SampleVerdict refusal() const { return gated_.verdict; }
+  SampleVerdict Report();
+
+  [[nodiscard]] const Config& config() const { return core_.config(); }
+  [[nodiscard]] CoreState& core_state() { return core_.mutable_state(); }
+  template <typename Copy>
+  static void ForEachReported(CoreState& core, Copy copy) {
+    copy(core.q_ES);
+    copy(core.w_ES_S);
+    copy(core.rest_time_s);
+    copy(core.b_g);
+    copy(core.b_a);
+    copy(core.deviation_hold);
+    for (int column = 0; column < 3; ++column) {
+      for (int row = 0; row < 3; ++row) {
+        copy(core.P(row, column));
+      }
+    }
+  }
+
  private:
   using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 
@@ -63,15 +94,17 @@ class BoundedMotionFilter final : public OrientationFilter {
   };
 
   void BeginRestart();
-  SampleVerdict UpdateStart(const GatedSample& sample);
-  void Feed(const GatedSample& sample, bool mag_valid);
+  void CheckAttitude();
+  SampleVerdict UpdateStart();
+  void Feed();
   void RememberReference(const Eigen::Vector3d& mag_in_earth_tesla);
   void AdoptField(const Eigen::Vector3d& mag_in_earth_tesla);
-  void Report(const GatedSample& sample);
 
   BoundedMotionCore<Scalar> core_;
   std::string_view name_;
   State state_;
+  GatedSample gated_;  // the one in work
+  CoreInput input_;
 };
 
 extern template class BoundedMotionFilter<double>;

@@ -9,6 +9,9 @@ struct FieldMonitorState {
   double mean_square = 0.0;  // of the deviation, in squares of the reference field
 };
 
+/// Disturbed or clean, from FieldMonitorState::mean_square.
+[[nodiscard]] MagneticState FieldState(double mean_square);
+
 /// Says whether the field agrees with the reference, without needing heading: norm and vertical
 /// part are compared, their squares averaged over 0.3 s; 0.15 of the reference field is disturbed.
 /// Thread-compatible.
@@ -18,7 +21,7 @@ class FieldMonitor {
   /// @param vertical            its upward part by the current estimate, same unit.
   /// @param reference_vertical  upward part of the reference field.
   void Update(double norm2, double vertical, double reference_vertical, double dt_s);
-  [[nodiscard]] MagneticState magnetic_state() const;
+  [[nodiscard]] MagneticState magnetic_state() const { return FieldState(state_.mean_square); }
   void Clear() { state_ = {}; }
 
   [[nodiscard]] const FieldMonitorState& state() const { return state_; }

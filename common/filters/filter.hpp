@@ -31,6 +31,15 @@ struct FilterEstimate {
   Eigen::Matrix3d cov_orientation_rad2 = Eigen::Matrix3d::Zero();
 };
 
+/// What a sample asks of a filter, beyond the sample gate.
+enum class SampleStep : std::uint8_t {
+  kNone,     ///< nothing: it is refused
+  kPlain,    ///< one step of the filter's core
+  kSpecial,  ///< a start, a bridged gap, the first field: what only the filter itself can do
+};
+
+class BatchedFilter;
+
 /// One orientation filter for one sensor. Takes time with the sample: replay at any speed gives the
 /// same answer. Opens nothing, logs nothing, allocates nothing after construction.
 /// Thread-compatible.
@@ -43,6 +52,9 @@ class OrientationFilter {
   [[nodiscard]] virtual SampleVerdict Update(const sensing::MargSample& sample) = 0;
 
   [[nodiscard]] virtual const FilterEstimate& estimate() const = 0;
+
+  /// This filter as one of several that are computed together, or null.
+  [[nodiscard]] virtual BatchedFilter* batched() { return nullptr; }
 
   /// Back to the state after construction.
   virtual void Reset() = 0;
@@ -57,6 +69,17 @@ class OrientationFilter {
   /// Fails with kCorruptData and changes nothing when `in` is not a state of this filter and
   /// version.
   [[nodiscard]] virtual Status RestoreState(std::span<const std::byte> in) = 0;
+};
+
+/// A filter that shares its steps with others (filter_batches.hpp). Update does all at once; to
+/// gain from the company, Submit the samples of several, run the batches, and Take each.
+class BatchedFilter : public OrientationFilter {
+ public:
+  /// Takes the next sample. Nothing else but Take may be called before the batch has run.
+  virtual void Submit(const sensing::MargSample& sample) = 0;
+  /// After the batch has run: what became of the submitted sample.
+  [[nodiscard]] virtual SampleVerdict Take() = 0;
+  [[nodiscard]] BatchedFilter* batched() final { return this; }
 };
 
 }  // namespace limbcast::filters

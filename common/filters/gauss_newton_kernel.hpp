@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "common/filters/lanes.hpp"
+
 namespace limbcast::filters::kernel {
 
 /// The arithmetic of one Gauss–Newton tracker step on plain numbers. Eigen's packets cost more than
-/// they gain on single quaternions (components are stored one by one and loaded in pairs), and a
-/// loop over these functions vectorises over sensors. `T` is double or float.
+/// they gain on single quaternions (components are stored one by one and loaded in pairs), and
+/// these functions vectorise over sensors. `T` is double, float, or a pack of them (lanes.hpp).
 
 template <typename T>
 struct Vector {
@@ -29,6 +31,26 @@ template <typename T>
 [[nodiscard]] inline Vector<T> Scaled(const Vector<T>& a, T s) {
   return {a.x * s, a.y * s, a.z * s};
 }
+template <typename T>
+[[nodiscard]] inline Vector<T> operator-(const Vector<T>& a, const Vector<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <typename T>
+[[nodiscard]] inline Vector<T> operator+(const Vector<T>& a, const Vector<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <typename T>
+[[nodiscard]] inline Vector<T> Select(lanes::MaskOf<T> mask, const Vector<T>& a,
+                                      const Vector<T>& b) {
+  return {lanes::Select(mask, a.x, b.x), lanes::Select(mask, a.y, b.y),
+          lanes::Select(mask, a.z, b.z)};
+}
+template <typename T>
+[[nodiscard]] inline Quaternion<T> Select(lanes::MaskOf<T> mask, const Quaternion<T>& a,
+                                          const Quaternion<T>& b) {
+  return {lanes::Select(mask, a.w, b.w), lanes::Select(mask, a.x, b.x),
+          lanes::Select(mask, a.y, b.y), lanes::Select(mask, a.z, b.z)};
+}
 
 /// q ⊗ (1, v).
 template <typename T>
@@ -37,13 +59,49 @@ template <typename T>
           q.y + q.w * v.y + q.z * v.x - q.x * v.z, q.z + q.w * v.z + q.x * v.y - q.y * v.x};
 }
 
-/// Two Newton steps for 1/|q|: exact to rounding while | |q|² − 1 | < 1e-3.
+/// q/|q|. Close to length 1, where trackers stay, 1/√(1+e) is its series to e⁴: exact to rounding
+/// while |e| < 1e-3.
 template <typename T>
-[[nodiscard]] inline Quaternion<T> NormalisedNearOne(const Quaternion<T>& q) {
-  const T norm2 = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
-  const T once = T(1.5) - T(0.5) * norm2;
-  const T s = once * (T(1.5) - T(0.5) * norm2 * once * once);
+[[nodiscard]] inline Quaternion<T> Normalised(const Quaternion<T>& q) {
+  constexpr double kSeriesWithin = 1e-3;
+  const T e = ((q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z)) - T(1);
+  const T e2 = e * e;
+  T s = (T(1) - T(0.5) * e) + e2 * ((T(0.375) - T(0.3125) * e) + e2 * T(0.2734375));
+  const lanes::MaskOf<T> far(!(e2 < T(kSeriesWithin * kSeriesWithin)));
+  if (lanes::Any(far)) {
+    s = lanes::Select(far, T(T(1) / lanes::Sqrt(T(T(1) + e))), s);
+  }
   return {q.w * s, q.x * s, q.y * s, q.z * s};
+}
+
+/// q ⊗ Exp(φ): sine and cosine of the half angle as series in its square x up to x⁶, exact to 1e-14
+/// below 1 rad; the library's functions above.
+template <typename T>
+[[nodiscard]] inline Quaternion<T> Rotated(const Quaternion<T>& q, const Vector<T>& phi_rad) {
+  constexpr double kSeriesBelow_rad = 1.0;
+  const T theta2 = Dot(phi_rad, phi_rad);
+  const T x = T(0.25) * theta2;
+  T c = T(1) - x * (T(1.0 / 2) -
+                    x * (T(1.0 / 24) -
+                         x * (T(1.0 / 720) - x * (T(1.0 / 40320) - x * (T(1.0 / 3628800) -
+                                                                        x * T(1.0 / 479001600))))));
+  T s = T(0.5) *
+        (T(1) -
+         x * (T(1.0 / 6) -
+              x * (T(1.0 / 120) -
+                   x * (T(1.0 / 5040) - x * (T(1.0 / 362880) -
+                                             x * (T(1.0 / 39916800) - x * T(1.0 / 6227020800)))))));
+  const auto large = theta2 > T(kSeriesBelow_rad * kSeriesBelow_rad);
+  if (lanes::Any(large)) {
+    const T theta = lanes::Sqrt(theta2);
+    const T half = T(0.5) * theta;
+    const T sine = lanes::Map(half, [](auto a) { return std::sin(a); });
+    c = lanes::Select(large, lanes::Map(half, [](auto a) { return std::cos(a); }), c);
+    s = lanes::Select(large, T(sine / theta), s);
+  }
+  const Vector<T> v = Scaled(phi_rad, s);
+  return {q.w * c - q.x * v.x - q.y * v.y - q.z * v.z, q.w * v.x + q.x * c + q.y * v.z - q.z * v.y,
+          q.w * v.y + q.y * c + q.z * v.x - q.x * v.z, q.w * v.z + q.z * c + q.x * v.y - q.y * v.x};
 }
 
 /// Rows of R(q): the earth axes in sensor coordinates.
@@ -82,12 +140,12 @@ template <typename T>
 template <typename T>
 [[nodiscard]] inline Vector<T> ReducedStep(const Vector<T>& h, const Vector<T>& b,
                                            const Vector<T>& h0, const Vector<T>& b0, T rho2) {
-  constexpr T kSingularBelow = T(1e-6);
-  constexpr T kLambda = T(1e-3);
+  constexpr double kSingularBelow = 1e-6;
+  constexpr double kLambda = 1e-3;
   const Vector<T> hxb = Cross(h, b);
   // det A = (1+ρ²)·ρ²·|h × b|² for unit vectors.
   const T det = (T(1) + rho2) * rho2 * Dot(hxb, hxb);
-  const T s = T(1) + rho2 + (det < kSingularBelow ? kLambda : T(0));
+  const T s = T(1) + rho2 + lanes::Select(det < T(kSingularBelow), T(kLambda), T(0));
   const Vector<T> rb = Scaled(b, rho2);
   const Vector<T> ch = Cross(h0, h);
   const Vector<T> cb = Cross(b0, b);

@@ -1,53 +1,70 @@
-// Notation as in bounded_motion_core.cpp: what the slow step learns from rest, bounds and field.
-#include <algorithm>
+#pragma once
+
+// The corrections of BoundedMotionStep: what the slow step learns from rest, bounds and field. What
+// instantiates it includes it, nobody else. Notation as in bounded_motion_motion.hpp.
+
 #include <cmath>
+#include <limits>
 
 #include "common/filters/bounded_motion_core.hpp"
 #include "common/filters/bounded_motion_parts.hpp"
 
 namespace limbcast::filters {
-
-using namespace bounded_motion;  // NOLINT: the names of one class, shared by its two source files
+using namespace bounded_motion;  // NOLINT: the names of one class, shared by its source files
 
 template <typename Scalar>
-void BoundedMotionCore<Scalar>::CheckField(const Means& means) {
+void BoundedMotionStep<Scalar>::CheckField(const Means& means) {
   State& s = state_;
   const Scalar T = means.T;
   const Vector3 m_b = means.m - means.R * s.b_m;
   // Heading-free: the norm and the vertical part do not depend on heading.
-  const Scalar deviation = std::hypot(m_b.norm() - s.m_0.norm(), m_b.z() - s.m_0.z());
-  s.deviation_hold = std::max(
-      deviation, s.deviation_hold * std::exp(-T / static_cast<Scalar>(config_.deviation_hold_s)));
-  s.deviation_mean +=
-      (Scalar(1) - std::exp(-T / static_cast<Scalar>(config_.carried_jump_time_s))) *
-      (deviation - s.deviation_mean);
+  const Scalar in_norm = m_b.norm() - s.m_0.norm();
+  const Scalar in_vertical = m_b.z() - s.m_0.z();
+  const Scalar deviation = lanes::Sqrt(Scalar(in_norm * in_norm + in_vertical * in_vertical));
+  const Scalar held = lanes::Max(
+      deviation, s.deviation_hold * Decay(T, static_cast<Scalar>(config_.deviation_hold_s)));
+  const Scalar mean =
+      s.deviation_mean + (Scalar(1) - Decay(T, static_cast<Scalar>(config_.carried_jump_time_s))) *
+                             (deviation - s.deviation_mean);
+  s.deviation_hold = lanes::Select(means.has_m, held, s.deviation_hold);
+  s.deviation_mean = lanes::Select(means.has_m, mean, s.deviation_mean);
   // At rest the same place is seen again and again, which says nothing about others.
   // A plain mean over the first `scatter_time_s` of motion, fading from then on.
-  const Scalar moving_s = at_rest() ? Scalar(0) : T;
-  s.scatter_s = std::min(s.scatter_s + moving_s, static_cast<Scalar>(config_.scatter_time_s));
-  const Scalar share = moving_s / std::max(s.scatter_s, T);
+  const Mask still(AtRest() | !means.has_m);
+  const Scalar moving_s = lanes::Select(still, Scalar(0), T);
+  s.scatter_s =
+      lanes::Min(Scalar(s.scatter_s + moving_s), static_cast<Scalar>(config_.scatter_time_s));
+  const Scalar share = moving_s / lanes::Max(s.scatter_s, T);
   s.east_mean += share * (m_b.x() - s.east_mean);
   const Scalar off_mean = m_b.x() - s.east_mean;
   s.east_scatter2 += share * (off_mean * off_mean - s.east_scatter2);
-  if (s.deviation_mean > static_cast<Scalar>(config_.carried_jump_threshold_ref)) {
-    const Scalar step = static_cast<Scalar>(config_.carried_jump_ref_rts) * s.deviation_mean;
+  const Mask jumped(means.has_m & (mean > static_cast<Scalar>(config_.carried_jump_threshold_ref)));
+  if (lanes::Any(jumped)) {
+    const Scalar step = static_cast<Scalar>(config_.carried_jump_ref_rts) * mean;
     for (int i = kBm; i < kBm + 3; ++i) {
-      s.P(i, i) = std::min(s.P(i, i) + step * step * T, static_cast<Scalar>(kMaxCarriedVariance));
+      const Scalar opened =
+          lanes::Min(Scalar(s.P(i, i) + step * step * T), static_cast<Scalar>(kMaxCarriedVariance));
+      s.P(i, i) = lanes::Select(jumped, opened, s.P(i, i));
     }
   }
 }
 
 // z observes the N neighbouring error states from `first` directly, each with the same variance.
+// Where the mask is not set, nothing changes.
 template <typename Scalar>
 template <int N>
-void BoundedMotionCore<Scalar>::CorrectDirect(int first, const Eigen::Matrix<Scalar, N, 1>& z,
+void BoundedMotionStep<Scalar>::CorrectDirect(Mask where, int first,
+                                              const Eigen::Matrix<Scalar, N, 1>& z,
                                               Scalar variance) {
   auto& P = state_.P;
   const Eigen::Matrix<Scalar, State::kRows, N> D = P.template middleCols<N>(first);
   Eigen::Matrix<Scalar, N, N> innovation = D.template middleRows<N>(first);
   innovation.diagonal().array() += variance;
   const Eigen::Matrix<Scalar, N, N> inverse = innovation.inverse();
-  const Eigen::Matrix<Scalar, State::kRows, N> K = D * inverse;
+  Eigen::Matrix<Scalar, State::kRows, N> K = D * inverse;
+  if (!lanes::All(where)) {
+    K = Choose<Scalar>(where, K, Eigen::Matrix<Scalar, State::kRows, N>::Zero());
+  }
   for (int c = 0; c < State::kDim; ++c) {
     P.col(c).noalias() -= K * D.row(c).transpose();
   }
@@ -55,27 +72,27 @@ void BoundedMotionCore<Scalar>::CorrectDirect(int first, const Eigen::Matrix<Sca
 }
 
 template <typename Scalar>
-void BoundedMotionCore<Scalar>::CorrectRest(Scalar T) {
+void BoundedMotionStep<Scalar>::CorrectRest(Scalar T) {
   const auto square = [](double sigma) { return static_cast<Scalar>(sigma * sigma); };
-  CorrectDirect<2>(kV, -state_.v_h, square(config_.sigma_zero_velocity_m_s));
+  CorrectDirect<2>(AtRest(), kV, -state_.v_h, square(config_.sigma_zero_velocity_m_s));
   const Vector3 turn_rad_s = state_.low_g - state_.b_g;
   const auto persistence_s = static_cast<Scalar>(config_.rest_turn_persistence_s);
-  CorrectDirect<3>(kBg, turn_rad_s,
+  CorrectDirect<3>(AtRest(), kBg, turn_rad_s,
                    (square(config_.sigma_rest_rad_s_rts) +
                     Scalar(2) * persistence_s * turn_rad_s.squaredNorm()) /
                        T);
 }
 
 template <typename Scalar>
-void BoundedMotionCore<Scalar>::CorrectBounds(Scalar T) {
+void BoundedMotionStep<Scalar>::CorrectBounds(Scalar T) {
   if (std::isfinite(config_.velocity_bound_m_s_rts)) {
     const auto r = static_cast<Scalar>(config_.velocity_bound_m_s_rts);
-    CorrectDirect<2>(kV, -state_.v_h, r * r / T);
+    CorrectDirect<2>(Mask(true), kV, -state_.v_h, r * r / T);
   }
   if (std::isfinite(config_.position_bound_m_rts)) {
     const auto r = static_cast<Scalar>(config_.position_bound_m_rts);
-    const Scalar persistence_s = static_cast<Scalar>(config_.position_persistence_s);
-    CorrectDirect<2>(kP, -state_.p_h,
+    const auto persistence_s = static_cast<Scalar>(config_.position_persistence_s);
+    CorrectDirect<2>(Mask(true), kP, -state_.p_h,
                      (r * r + Scalar(2) * persistence_s * state_.p_h.squaredNorm()) / T);
   }
 }
@@ -87,7 +104,7 @@ void BoundedMotionCore<Scalar>::CorrectBounds(Scalar T) {
 // without gain, which stays, comes out as in the optimal update (S. F. Schmidt, "Application of
 // state-space methods to navigation problems", 1966).
 template <typename Scalar>
-void BoundedMotionCore<Scalar>::CorrectField(const Means& means) {
+void BoundedMotionStep<Scalar>::CorrectField(const Means& means) {
   State& s = state_;
   auto& P = s.P;
   const Vector3 z = means.m_b - s.m_0;
@@ -103,16 +120,18 @@ void BoundedMotionCore<Scalar>::CorrectField(const Means& means) {
   const auto k_R = static_cast<Scalar>(config_.k_deviation_rts);
   const auto r_m = static_cast<Scalar>(config_.sigma_mag_ref_rts);
   const auto floor = static_cast<Scalar>(config_.scatter_floor_ref);
-  const Scalar spread2 =
-      s.deviation_hold * s.deviation_hold + std::max(s.east_scatter2 - floor * floor, Scalar(0));
+  const Scalar spread2 = s.deviation_hold * s.deviation_hold +
+                         lanes::Max(Scalar(s.east_scatter2 - floor * floor), Scalar(0));
   innovation.diagonal().array() += (r_m * r_m + k_R * k_R * spread2) / means.T;
   Matrix3 inverse = innovation.inverse();
   const Scalar nis = z.dot(inverse * z);
   const auto gate = static_cast<Scalar>(config_.gate_nis);
-  if (nis > gate) {
-    inverse *= gate / nis;
+  inverse *= lanes::Select(Mask(nis > gate), Scalar(gate / nis), Scalar(1));
+  Eigen::Matrix<Scalar, State::kRows, 3> K_optimal = D * inverse;
+  if (!lanes::All(means.has_m)) {
+    K_optimal =
+        Choose<Scalar>(means.has_m, K_optimal, Eigen::Matrix<Scalar, State::kRows, 3>::Zero());
   }
-  const Eigen::Matrix<Scalar, State::kRows, 3> K_optimal = D * inverse;
   Eigen::Matrix<Scalar, State::kRows, 3> K = K_optimal;
   if (config_.mag_heading_only) {
     K.setZero();
@@ -137,12 +156,14 @@ void BoundedMotionCore<Scalar>::CorrectField(const Means& means) {
 }
 
 template <typename Scalar>
-void BoundedMotionCore<Scalar>::Inject(const Eigen::Matrix<Scalar, State::kRows, 1>& dx) {
+void BoundedMotionStep<Scalar>::Inject(const Eigen::Matrix<Scalar, State::kRows, 1>& dx) {
   State& s = state_;
   s.q_ES = Exp<Scalar>(dx.template segment<3>(kTheta)) * s.q_ES;
   s.east_mean -= s.m_0.y() * dx(2);  // the mean turns with the heading it was seen in
-  constexpr auto kMax = static_cast<Scalar>(kMaxGyroBias_rad_s);
-  s.b_g = (s.b_g + dx.template segment<3>(kBg)).cwiseMax(-kMax).cwiseMin(kMax);
+  for (int i = 0; i < 3; ++i) {
+    const Scalar bias = lanes::Max(Scalar(s.b_g[i] + dx[kBg + i]), Scalar(-kMaxGyroBias_rad_s));
+    s.b_g[i] = lanes::Min(bias, Scalar(kMaxGyroBias_rad_s));
+  }
   s.v_h += dx.template segment<2>(kV);
   s.p_h += dx.template segment<2>(kP);
   s.b_a += dx.template segment<3>(kBa);
@@ -154,30 +175,37 @@ void BoundedMotionCore<Scalar>::Inject(const Eigen::Matrix<Scalar, State::kRows,
 }
 
 template <typename Scalar>
-void BoundedMotionCore<Scalar>::GuardCovariance() {
-  bool sound = true;
-  for (int i = 0; i < State::kDim; ++i) {
-    sound = sound && state_.P(i, i) >= 0 && std::isfinite(state_.P(i, i));
+void BoundedMotionStep<Scalar>::Symmetrise() {
+  State& s = state_;
+  s.symmetrised_ago += Scalar(1);
+  const Mask due = s.symmetrised_ago >= Scalar(kSymmetriseEvery);
+  if (!lanes::Any(due)) {
+    return;
   }
-  if (!sound) {
-    ResetCovariance();
-    ++state_.covariance_resets;
+  for (int c = 1; c < State::kDim; ++c) {
+    for (int r = 0; r < c; ++r) {
+      const Scalar mean = Scalar(0.5) * (s.P(r, c) + s.P(c, r));
+      s.P(r, c) = lanes::Select(due, mean, s.P(r, c));
+      s.P(c, r) = lanes::Select(due, mean, s.P(c, r));
+    }
   }
+  s.symmetrised_ago = lanes::Select(due, Scalar(0), s.symmetrised_ago);
 }
 
-template void BoundedMotionCore<double>::CheckField(const Means&);
-template void BoundedMotionCore<double>::CorrectRest(double);
-template void BoundedMotionCore<double>::CorrectBounds(double);
-template void BoundedMotionCore<double>::CorrectField(const Means&);
-template void BoundedMotionCore<double>::GuardCovariance();
-template void BoundedMotionCore<double>::Inject(
-    const Eigen::Matrix<double, BoundedMotionState<double>::kRows, 1>&);
-template void BoundedMotionCore<float>::CheckField(const Means&);
-template void BoundedMotionCore<float>::CorrectRest(float);
-template void BoundedMotionCore<float>::CorrectBounds(float);
-template void BoundedMotionCore<float>::CorrectField(const Means&);
-template void BoundedMotionCore<float>::GuardCovariance();
-template void BoundedMotionCore<float>::Inject(
-    const Eigen::Matrix<float, BoundedMotionState<float>::kRows, 1>&);
+template <typename Scalar>
+void BoundedMotionStep<Scalar>::GuardCovariance() {
+  State& s = state_;
+  const auto most = Scalar(std::numeric_limits<lanes::NumberOf<Scalar>>::max());
+  Mask sound(true);
+  for (int i = 0; i < State::kDim; ++i) {
+    sound = Mask(sound & (s.P(i, i) >= Scalar(0)) & (s.P(i, i) <= most));  // false for NaN
+  }
+  if (!lanes::All(sound)) {
+    const auto before = s.P;
+    ResetCovariance();
+    s.P = Choose<Scalar>(sound, before, s.P);
+    s.covariance_resets += lanes::Select(sound, Scalar(0), Scalar(1));
+  }
+}
 
 }  // namespace limbcast::filters

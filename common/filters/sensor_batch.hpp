@@ -1,0 +1,210 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/base/expects.hpp"
+#include "common/filters/batch_kernels.hpp"
+#include "common/filters/filter.hpp"
+#include "common/filters/lane_block.hpp"
+
+namespace limbcast::filters {
+
+/// Places for filters that are computed together.
+class AnySensorBatch {
+ public:
+  static constexpr int kSeats = 8;
+  virtual ~AnySensorBatch() = default;
+  /// Steps what was submitted since the last time.
+  virtual void Run() = 0;
+  [[nodiscard]] virtual int seats_taken() const = 0;
+};
+
+/// Eight filters of one kind and configuration whose cores are kept number by number and stepped
+/// together (DESIGN-batch.md). Start, gaps and other special samples are the affair of each filter,
+/// on its own copy of its core. What a seat gives does not depend on who else sits there.
+///
+/// Filter: GaussNewtonOrientation or BoundedMotionFilter. Thread-compatible; allocates nothing
+/// after construction.
+template <typename Filter>
+class SensorBatch final : public AnySensorBatch {
+ public:
+  using Config = typename Filter::Config;
+  using Number = typename Filter::Number;
+  using CoreInput = typename Filter::CoreInput;
+  using CoreState = typename Filter::CoreState;
+  using Kernel = void (*)(const Config&, const std::byte* inputs, std::byte* states);
+
+  /// @param width  lanes of the kernel; divides kSeats.
+  SensorBatch(const Config& config, Kernel kernel, int width)
+      : config_(config),
+        kernel_(kernel),
+        width_(width),
+        inputs_(MakeBlocks<CoreInput>()),
+        states_(MakeBlocks<CoreState>()) {
+    Expects(width >= 1 && kSeats % width == 0, "a width that divides the seats");
+  }
+
+  /// A filter that steps here, or null when all seats are taken. Its owner keeps the batch.
+  [[nodiscard]] static std::unique_ptr<BatchedFilter> Seat(std::shared_ptr<SensorBatch> batch,
+                                                           std::unique_ptr<Filter> filter) {
+    for (int seat = 0; seat < kSeats; ++seat) {
+      if (!batch->taken_[Index(seat)]) {
+        return std::make_unique<Seated>(std::move(batch), seat, std::move(filter));
+      }
+    }
+    return nullptr;
+  }
+
+  void Run() override {
+    for (int first = 0; first < kSeats; first += width_) {
+      bool wanted = false;
+      for (int seat = first; seat < first + width_; ++seat) {
+        wanted = wanted || submitted_[Index(seat)];
+      }
+      if (wanted) {
+        std::byte* const inputs = At(inputs_, first);
+        kernel_(config_, inputs, At(states_, first));
+        for (int seat = first; seat < first + width_; ++seat) {
+          SetPresent(seat, Number(0));
+        }
+      }
+    }
+    submitted_.reset();
+  }
+
+  [[nodiscard]] const Config& config() const { return config_; }
+  [[nodiscard]] int seats_taken() const override { return static_cast<int>(taken_.count()); }
+
+ private:
+  struct alignas(kBlockAlignment_bytes) Cell {
+    std::array<std::byte, kBlockAlignment_bytes> bytes;
+  };
+  using Blocks = std::vector<Cell>;
+
+  class Seated final : public BatchedFilter {
+   public:
+    Seated(std::shared_ptr<SensorBatch> batch, int seat, std::unique_ptr<Filter> filter)
+        : batch_(std::move(batch)), seat_(seat), filter_(std::move(filter)) {
+      batch_->taken_.set(Index(seat_));
+    }
+    Seated(const Seated&) = delete;
+    Seated& operator=(const Seated&) = delete;
+    ~Seated() override { batch_->taken_.reset(Index(seat_)); }
+
+    void Submit(const sensing::MargSample& sample) override {
+      step_ = filter_->Pass(sample);
+      if (step_ == SampleStep::kPlain) {
+        if (!in_batch_) {
+          lanes::PutLane<CoreState, Number>(batch_->At(batch_->states_, seat_), batch_->width_,
+                                            seat_ % batch_->width_, filter_->core_state());
+          in_batch_ = true;
+        }
+        lanes::PutLane<CoreInput, Number>(batch_->At(batch_->inputs_, seat_), batch_->width_,
+                                          seat_ % batch_->width_, filter_->core_input());
+        batch_->submitted_.set(Index(seat_));
+      }
+    }
+
+    SampleVerdict Take() override {
+      switch (step_) {
+        case SampleStep::kPlain:
+          Filter::ForEachReported(filter_->core_state(), [this](auto& member) { Fetch(member); });
+          return filter_->Report();
+        case SampleStep::kSpecial:
+          FetchAll();
+          in_batch_ = false;
+          return filter_->StepAlone();
+        case SampleStep::kNone:
+          break;
+      }
+      return filter_->refusal();
+    }
+
+    [[nodiscard]] SampleVerdict Update(const sensing::MargSample& sample) override {
+      Submit(sample);
+      batch_->Run();
+      return Take();
+    }
+    [[nodiscard]] const FilterEstimate& estimate() const override { return filter_->estimate(); }
+    void Reset() override {
+      in_batch_ = false;
+      filter_->Reset();
+    }
+    [[nodiscard]] std::string_view name() const override { return filter_->name(); }
+    [[nodiscard]] std::size_t state_size_bytes() const override {
+      return filter_->state_size_bytes();
+    }
+    void SaveState(std::span<std::byte> out) const override {
+      FetchAll();
+      filter_->SaveState(out);
+    }
+    [[nodiscard]] Status RestoreState(std::span<const std::byte> in) override {
+      FetchAll();
+      in_batch_ = false;
+      return filter_->RestoreState(in);
+    }
+
+   private:
+    // The core in the filter gets the batch's value of one of its members.
+    template <typename Member>
+    void Fetch(Member& member) const {
+      static_assert(sizeof(Member) % sizeof(Number) == 0);
+      const auto* const core = reinterpret_cast<const std::byte*>(&filter_->core_state());
+      const auto offset =
+          static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&member) - core);
+      const std::byte* const block =
+          batch_->At(batch_->states_, seat_) + offset * static_cast<std::size_t>(batch_->width_);
+      lanes::GetLane<Member, Number>(block, batch_->width_, seat_ % batch_->width_, member);
+    }
+    void FetchAll() const {
+      if (in_batch_) {
+        Fetch(filter_->core_state());
+      }
+    }
+
+    std::shared_ptr<SensorBatch> batch_;
+    int seat_;
+    std::unique_ptr<Filter> filter_;
+    SampleStep step_ = SampleStep::kNone;
+    bool in_batch_ = false;  // the core there is newer than the filter's own
+  };
+
+  template <typename Record>
+  [[nodiscard]] Blocks MakeBlocks() const {
+    const auto groups = static_cast<std::size_t>(kSeats / width_);
+    const std::size_t cells =
+        (sizeof(Record) * static_cast<std::size_t>(width_) + sizeof(Cell) - 1) / sizeof(Cell);
+    return Blocks(groups * cells, Cell{});
+  }
+  // The block of the group that `seat` belongs to.
+  [[nodiscard]] std::byte* At(Blocks& blocks, int seat) const {
+    const std::size_t cells = blocks.size() / static_cast<std::size_t>(kSeats / width_);
+    return blocks[cells * static_cast<std::size_t>(seat / width_)].bytes.data();
+  }
+  void SetPresent(int seat, Number present) {
+    const CoreInput layout{};
+    const auto offset =
+        static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&layout.present) -
+                                 reinterpret_cast<const std::byte*>(&layout));
+    lanes::PutLane<Number, Number>(At(inputs_, seat) + offset * static_cast<std::size_t>(width_),
+                                   width_, seat % width_, present);
+  }
+  [[nodiscard]] static std::size_t Index(int seat) { return static_cast<std::size_t>(seat); }
+
+  Config config_;
+  Kernel kernel_;
+  int width_;
+  Blocks inputs_;
+  Blocks states_;
+  std::bitset<kSeats> taken_;
+  std::bitset<kSeats> submitted_;
+};
+
+}  // namespace limbcast::filters
