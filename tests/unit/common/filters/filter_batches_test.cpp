@@ -10,7 +10,7 @@
 
 #include "common/filters/filter_factory.hpp"
 #include "common/math/rotation.hpp"
-#include "tests/unit/common/filters/allocation_counter.hpp"
+#include "tests/support/allocation_counter.hpp"
 #include "tests/unit/common/filters/marg_stream.hpp"
 
 namespace limbcast::filters {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/math/rotation.hpp"
-#include "tests/unit/common/filters/allocation_counter.hpp"
+#include "tests/support/allocation_counter.hpp"
 #include "tests/unit/common/filters/marg_stream.hpp"
 
 namespace limbcast::filters {

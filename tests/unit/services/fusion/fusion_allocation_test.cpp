@@ -2,43 +2,19 @@
 // global operator new.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
+#include <memory>
 
 #include "services/fusion/fusion_service.hpp"
+#include "tests/support/allocation_counter.hpp"
 #include "tests/unit/services/fusion/fusion_fixture.hpp"
-
-namespace {
-std::atomic<std::uint64_t> g_allocations{0};
-
-void* CountedAllocation(std::size_t size, std::size_t alignment) {
-  ++g_allocations;
-  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  void* const memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
-  if (memory == nullptr) {
-    std::abort();
-  }
-  return memory;
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return CountedAllocation(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return CountedAllocation(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace limbcast::fusion {
 namespace {
 
 TEST(FusionAllocationTest, TheCounterSeesAnAllocation) {
-  const std::uint64_t before = g_allocations;
+  const std::size_t before = test_support::AllocationCount();
   const auto memory = std::make_unique<int>(1);
-  EXPECT_EQ(g_allocations, before + 1) << *memory;
+  EXPECT_EQ(test_support::AllocationCount(), before + 1) << *memory;
 }
 
 TEST(FusionAllocationTest, NoAllocationFromSampleToStateAfterTheStart) {
@@ -73,10 +49,10 @@ TEST(FusionAllocationTest, NoAllocationFromSampleToStateAfterTheStart) {
   frame.samples = {sample};
   sensing::FusedOrientation orientation;
   orientation.sensor_uid = SensorUid{10};
-  std::uint64_t allocations_at_start = 0;
+  std::size_t allocations_at_start = 0;
   for (std::uint32_t i = 1; i <= 1'000; ++i) {
     if (i == 101) {
-      allocations_at_start = g_allocations;
+      allocations_at_start = test_support::AllocationCount();
     }
     sample.sequence = 2 * i - 1;
     sample.measured_at = clock.Now();
@@ -91,7 +67,7 @@ TEST(FusionAllocationTest, NoAllocationFromSampleToStateAfterTheStart) {
     ASSERT_TRUE(orientations->Write(orientation).ok());
     clock.Advance(std::chrono::milliseconds(5));
   }
-  EXPECT_EQ(g_allocations, allocations_at_start);
+  EXPECT_EQ(test_support::AllocationCount(), allocations_at_start);
   EXPECT_EQ(states, 1'000U * 3U * 2U);
   EXPECT_EQ(service.counters().verdicts[SampleVerdict::kRejectedDuplicate], 1'000U);
 }

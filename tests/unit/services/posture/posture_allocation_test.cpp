@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "tests/unit/common/filters/allocation_counter.hpp"
+#include "tests/support/allocation_counter.hpp"
 #include "tests/unit/services/posture/posture_rig.hpp"
 
 namespace limbcast::posture {
