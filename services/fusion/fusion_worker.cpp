@@ -17,7 +17,10 @@ bool Names(const BodyPlan& plan, SensorUid sensor_uid) {
 FusionWorker::FusionWorker(const FusionConfig& config, const FilterFactory& factory,
                            const Clock& clock, bus::Writer<body::SegmentState>& writer,
                            FusionLatencies& latencies)
-    : factory_(factory),
+    : seated_([this, &factory](std::string_view name) {
+        auto made = factory(name);
+        return made.ok() ? batches_.Seat(std::move(*made)) : std::move(made);
+      }),
       clock_(clock),
       writer_(writer),
       latencies_(latencies),
@@ -27,37 +30,85 @@ FusionWorker::FusionWorker(const FusionConfig& config, const FilterFactory& fact
 void FusionWorker::Drain() {
   counters_.SawQueue(queue_.size());
   std::size_t unflushed = 0;
-  while (queue_.TryPop(item_)) {
-    std::visit([this](const auto& work) { Handle(work, item_.reception); }, item_.work);
+  while (queue_.TryPop(round_[round_size_].item)) {
+    Take(round_[round_size_]);
     if (++unflushed == kFlushEvery) {
+      FinishRound();
       writer_.Flush();
       unflushed = 0;
     }
   }
+  FinishRound();
   if (unflushed > 0) {
     writer_.Flush();
   }
 }
 
-void FusionWorker::Handle(const sensing::MargSample& sample, const Reception& reception) {
-  HandleSample(sample, reception);
+// Adds a sample to the round. What is not to be filtered ends the round and is handled at once.
+void FusionWorker::Take(InRound& next) {
+  const auto* const sample = std::get_if<sensing::MargSample>(&next.item.work);
+  if (sample == nullptr) {
+    FinishRound();
+    if (const auto* const plan = std::get_if<std::shared_ptr<const BodyPlan>>(&next.item.work)) {
+      Handle(*plan);
+    } else {
+      Handle(std::get<sensing::FusedOrientation>(next.item.work), next.item.reception);
+    }
+    return;
+  }
+  Tracked* const tracked = Find(sample->sensor_uid);
+  if (tracked == nullptr) {
+    return;
+  }
+  InRound* place = &next;
+  if (tracked->track.begun()) {
+    FinishRound();
+    if (place != &round_.front()) {
+      std::swap(round_.front().item, next.item);
+      place = &round_.front();
+    }
+  }
+  place->tracked = tracked;
+  place->taken_at = clock_.Now();
+  tracked->track.Begin(std::get<sensing::MargSample>(place->item.work), place->item.reception);
+  ++round_size_;
+}
+
+void FusionWorker::FinishRound() {
+  if (round_size_ == 0) {
+    return;
+  }
+  batches_.Run();
+  for (std::size_t i = 0; i < round_size_; ++i) {
+    const InRound& in_round = round_[i];
+    const SensorTrack::Output output = in_round.tracked->track.Finish();
+    const auto& sample = std::get<sensing::MargSample>(in_round.item.work);
+    Publish(output, sample.published_at, in_round.item.reception, in_round.taken_at);
+  }
+  round_size_ = 0;
 }
 
 void FusionWorker::Handle(const sensing::FusedOrientation& orientation,
                           const Reception& reception) {
-  HandleSample(orientation, reception);
+  if (Tracked* const tracked = Find(orientation.sensor_uid)) {
+    const Time taken_at = clock_.Now();
+    Publish(tracked->track.Update(orientation, reception), orientation.published_at, reception,
+            taken_at);
+  }
 }
 
-template <typename Sample>
-void FusionWorker::HandleSample(const Sample& sample, const Reception& reception) {
-  const auto found = tracks_.find(sample.sensor_uid);
+FusionWorker::Tracked* FusionWorker::Find(SensorUid sensor_uid) {
+  const auto found = tracks_.find(sensor_uid);
   if (found == tracks_.end()) {
     // Its plan was refused for lack of room: as good as not assigned.
     counters_.Add(SampleVerdict::kRejectedUnassigned);
-    return;
+    return nullptr;
   }
-  const Time taken_at = clock_.Now();
-  const SensorTrack::Output output = found->second.track.Update(sample, reception);
+  return &found->second;
+}
+
+void FusionWorker::Publish(const SensorTrack::Output& output, Time published_at,
+                           const Reception& reception, Time taken_at) {
   const Time done_at = clock_.Now();
   for (body::SegmentState& state : output.states) {
     state.stages.fusion_published_at = done_at;
@@ -71,14 +122,13 @@ void FusionWorker::HandleSample(const Sample& sample, const Reception& reception
   if (output.lost != 0) {
     counters_.AddLost(output.lost);
   }
-  latencies_.gateway_to_fusion.Record(reception.received_at - sample.published_at);
+  latencies_.gateway_to_fusion.Record(reception.received_at - published_at);
   latencies_.queue.Record(taken_at - reception.received_at);
   latencies_.step.Record(done_at - taken_at);
   latencies_.fusion.Record(done_at - reception.received_at);
 }
 
-void FusionWorker::Handle(const std::shared_ptr<const BodyPlan>& plan,
-                          const Reception& /*reception*/) {
+void FusionWorker::Handle(const std::shared_ptr<const BodyPlan>& plan) {
   DisposeAbsent(plan->body_id, *plan);
   std::erase_if(tracks_, [&](const auto& entry) {
     return entry.second.body_id == plan->body_id && !Names(*plan, entry.first);
@@ -86,10 +136,10 @@ void FusionWorker::Handle(const std::shared_ptr<const BodyPlan>& plan,
   for (const TrackPlan& track : plan->tracks) {
     const auto found = tracks_.find(track.sensor_uid);
     if (found != tracks_.end() && found->second.body_id == plan->body_id) {
-      found->second.track.Apply(track, factory_);
+      found->second.track.Apply(track, seated_);
     } else {
       tracks_.erase(track.sensor_uid);
-      tracks_.try_emplace(track.sensor_uid, plan->body_id, track, factory_, max_future_);
+      tracks_.try_emplace(track.sensor_uid, plan->body_id, track, seated_, max_future_);
     }
   }
 }

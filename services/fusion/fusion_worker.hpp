@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 #include "common/base/clock.hpp"
 #include "common/base/ids.hpp"
 #include "common/bus/writer.hpp"
+#include "common/filters/filter_batches.hpp"
 #include "common/runtime/bounded_queue.hpp"
 #include "common/runtime/latency_histogram.hpp"
 #include "services/fusion/fusion_config.hpp"
@@ -28,6 +30,10 @@ struct FusionLatencies {
 
 /// One shard: a queue, and the sensors of the bodies that belong to it. Offer from any thread,
 /// Drain from one. Nothing else touches its sensors, so a filter step holds no lock.
+///
+/// Filters of one kind and configuration sit in batches (filters/filter_batches). What is queued is
+/// taken in rounds, at most one sample of each sensor in one, and the batches step once in a round.
+/// What a sensor's filter says does not depend on who else is in its batch or its round.
 class FusionWorker {
  public:
   using Work =
@@ -64,11 +70,20 @@ class FusionWorker {
   static constexpr std::size_t kKeptForPlans = 32;
   static constexpr std::size_t kFlushEvery = 32;  // samples, when the queue never gets empty
 
-  void Handle(const sensing::MargSample& sample, const Reception& reception);
+  struct Tracked;
+  struct InRound {
+    Tracked* tracked = nullptr;
+    Item item;
+    Time taken_at{};
+  };
+
+  void Take(InRound& next);
+  void FinishRound();
   void Handle(const sensing::FusedOrientation& orientation, const Reception& reception);
-  void Handle(const std::shared_ptr<const BodyPlan>& plan, const Reception& reception);
-  template <typename Sample>
-  void HandleSample(const Sample& sample, const Reception& reception);
+  void Handle(const std::shared_ptr<const BodyPlan>& plan);
+  [[nodiscard]] Tracked* Find(SensorUid sensor_uid);
+  void Publish(const SensorTrack::Output& output, Time published_at, const Reception& reception,
+               Time taken_at);
   void DisposeAbsent(BodyId body_id, const BodyPlan& plan);
 
   struct Tracked {
@@ -78,13 +93,15 @@ class FusionWorker {
     SensorTrack track;
   };
 
-  const FilterFactory& factory_;
+  filters::FilterBatches batches_;
+  const FilterFactory seated_;  // the service's factory, with a seat for what it makes
   const Clock& clock_;
   bus::Writer<body::SegmentState>& writer_;
   FusionLatencies& latencies_;
   const Duration max_future_;
   runtime::BoundedQueue<Item> queue_;
-  Item item_;  // the one in work
+  std::array<InRound, kFlushEvery> round_;
+  std::size_t round_size_ = 0;
   std::unordered_map<SensorUid, Tracked> tracks_;
   CounterCells counters_;
 };

@@ -143,42 +143,80 @@ void SensorTrack::Count(SegmentState& state, const Source& source, SampleVerdict
   state.lost_count = static_cast<std::uint64_t>(source.lost);
 }
 
+void SensorTrack::Submit(const FilterPtr& filter, const sensing::MargSample& sample) {
+  if (filter != nullptr && filter->batched() != nullptr) {
+    filter->batched()->Submit(sample);
+  }
+}
+
+SampleVerdict SensorTrack::Take(const FilterPtr& filter, const sensing::MargSample& sample) {
+  return filter->batched() != nullptr ? filter->batched()->Take() : filter->Update(sample);
+}
+
 SensorTrack::Output SensorTrack::Update(const sensing::MargSample& sample,
                                         const Reception& reception) {
-  Output output{.states = {states_.data(), std::size_t{has_beside() ? 2U : 1U}}};
-  for (SegmentState& state : output.states) {
+  Judge(sample, reception);
+  return Answer(sample, [&sample](const FilterPtr& filter) { return filter->Update(sample); });
+}
+
+void SensorTrack::Begin(const sensing::MargSample& sample, const Reception& reception) {
+  Expects(begun_ == nullptr, "Finish before the next Begin");
+  begun_ = &sample;
+  Judge(sample, reception);
+  if (output_.verdict == SampleVerdict::kFused) {
+    Submit(filter_, sample);
+    Submit(beside_, sample);
+    Submit(incoming_, sample);
+  }
+}
+
+SensorTrack::Output SensorTrack::Finish() {
+  const sensing::MargSample& sample = *std::exchange(begun_, nullptr);
+  return Answer(sample, [&sample](const FilterPtr& filter) { return Take(filter, sample); });
+}
+
+// Counts the sample and says whether the filters get it: verdict kFused.
+void SensorTrack::Judge(const sensing::MargSample& sample, const Reception& reception) {
+  output_ = Output{.states = {states_.data(), std::size_t{has_beside() ? 2U : 1U}}};
+  for (SegmentState& state : output_.states) {
     Start(state, sample.sequence, sample.measured_at, sample.published_at, reception);
   }
-  SampleVerdict beside_verdict = SampleVerdict::kNoData;
   if (sample.Has(sensing::MargFlag::kProbe)) {
-    output.probe = true;
-  } else {
-    marg_seen_ = true;
-    const auto arrival = Arrive(marg_, sample.sequence, sample.measured_at, reception, output.lost);
-    output.verdict = arrival.duplicate ? SampleVerdict::kRejectedDuplicate
-                                       : CheckTime(sample.measured_at, reception);
-    beside_verdict = output.verdict;
-    if (output.verdict == SampleVerdict::kFused) {
-      output.verdict = filter_->Update(sample);
-      beside_verdict = beside_ != nullptr ? beside_->Update(sample) : output.verdict;
+    output_.probe = true;
+    return;
+  }
+  marg_seen_ = true;
+  const auto arrival = Arrive(marg_, sample.sequence, sample.measured_at, reception, output_.lost);
+  output_.verdict = arrival.duplicate ? SampleVerdict::kRejectedDuplicate
+                                      : CheckTime(sample.measured_at, reception);
+}
+
+// Fills the states from what `step` makes of the sample with each filter.
+template <typename Step>
+SensorTrack::Output SensorTrack::Answer(const sensing::MargSample& sample, Step step) {
+  SampleVerdict beside_verdict = output_.verdict;
+  if (!output_.probe) {
+    if (output_.verdict == SampleVerdict::kFused) {
+      output_.verdict = step(filter_);
+      beside_verdict = beside_ != nullptr ? step(beside_) : output_.verdict;
       if (incoming_ != nullptr) {
         // Its verdict is not told: until it takes over, the samples are answered by the other one.
-        static_cast<void>(incoming_->Update(sample));
+        static_cast<void>(step(incoming_));
         TakeIncoming();
       }
-      if (IsUsed(output.verdict)) {
+      if (IsUsed(output_.verdict)) {
         marg_.sequence.Used(sample.sequence, sample.measured_at);
       }
     }
-    marg_.verdicts.Add(output.verdict);
+    marg_.verdicts.Add(output_.verdict);
   }
   Fill(states_[0], *filter_);
-  Count(states_[0], marg_, output.verdict);
+  Count(states_[0], marg_, output_.verdict);
   if (beside_ != nullptr) {
     Fill(states_[1], *beside_);
     Count(states_[1], marg_, beside_verdict);
   }
-  return output;
+  return output_;
 }
 
 SensorTrack::Output SensorTrack::Update(const sensing::FusedOrientation& orientation,

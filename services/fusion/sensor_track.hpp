@@ -47,6 +47,12 @@ class SensorTrack {
 
   [[nodiscard]] Output Update(const sensing::MargSample& sample, const Reception& reception);
 
+  /// Update in two halves: between them the batches run that the filters sit in
+  /// (filters/filter_batches). Only Finish may follow Begin. `sample` stays where it is until then.
+  void Begin(const sensing::MargSample& sample, const Reception& reception);
+  [[nodiscard]] Output Finish();
+  [[nodiscard]] bool begun() const { return begun_ != nullptr; }
+
   /// A sensor with a filter on board: its orientation passes through as filter "onboard", as slot
   /// 0, or as slot 1 when the sensor's raw samples are filtered here too (no state when slot 1 is
   /// taken by a filter beside).
@@ -71,6 +77,12 @@ class SensorTrack {
   [[nodiscard]] SampleVerdict CheckTime(Time measured_at, const Reception& reception) const;
   [[nodiscard]] SampleVerdict CheckOrder(Time measured_at);
   void TakeIncoming();
+  void Judge(const sensing::MargSample& sample, const Reception& reception);
+  template <typename Step>
+  Output Answer(const sensing::MargSample& sample, Step step);
+  static void Submit(const FilterPtr& filter, const sensing::MargSample& sample);
+  [[nodiscard]] static SampleVerdict Take(const FilterPtr& filter,
+                                          const sensing::MargSample& sample);
   void Start(body::SegmentState& state, std::uint32_t sequence, Time measured_at,
              Time gateway_published_at, const Reception& reception) const;
   static void Fill(body::SegmentState& state, const filters::OrientationFilter& filter);
@@ -88,6 +100,8 @@ class SensorTrack {
   std::uint32_t onboard_old_run_ = 0;
   std::uint64_t overloads_seen_;
   bool marg_seen_ = false;
+  const sensing::MargSample* begun_ = nullptr;  // between Begin and Finish
+  Output output_;                               // of that sample, so far
   std::array<body::SegmentState, 2> states_;
 };
 

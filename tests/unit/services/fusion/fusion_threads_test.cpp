@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <random>
+#include <string>
 #include <thread>
 
 #include "common/runtime/thread_pool.hpp"
@@ -18,11 +19,15 @@ constexpr std::uint32_t kSensorsPerBody = 3;
 
 // What one run says, body by body, in the order in which it was said.
 std::map<std::uint32_t, std::vector<body::SegmentState>> RunWith(std::size_t workers,
-                                                                 bool real_filter) {
+                                                                 const std::string& filter) {
   FusionWorld world;
   runtime::ThreadPool pool("fusion", workers);
-  FusionService service(real_filter ? FusionConfig{} : CountingConfig(), world.clock, *world.inside,
-                        pool, real_filter ? FilterFactory{} : CountingFilters());
+  FusionConfig config = CountingConfig();
+  if (filter != "counting") {
+    config.filter.name = filter;
+  }
+  FusionService service(config, world.clock, *world.inside, pool,
+                        filter != "counting" ? FilterFactory{} : CountingFilters());
   EXPECT_TRUE(service.Start().ok());
   for (std::uint32_t b = 1; b <= kBodies; ++b) {
     world.Assign(b, {{b * 10, body::Segment::kHead},
@@ -74,7 +79,7 @@ void ExpectSame(const body::SegmentState& a, const body::SegmentState& b) {
   ASSERT_TRUE(same_bits(a.cov_orientation_rad2, b.cov_orientation_rad2));
 }
 
-class FusionWorkersTest : public ::testing::TestWithParam<bool> {};
+class FusionWorkersTest : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(FusionWorkersTest, TheStatesOfABodyDoNotDependOnTheNumberOfWorkers) {
   const auto reference = RunWith(1, GetParam());
@@ -92,8 +97,9 @@ TEST_P(FusionWorkersTest, TheStatesOfABodyDoNotDependOnTheNumberOfWorkers) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(CountingAndShippedFilter, FusionWorkersTest, ::testing::Bool(),
-                         [](const auto& test) { return test.param ? "shipped" : "counting"; });
+// The filters of several bodies share batches, by chance of arrival: that changes no bit either.
+INSTANTIATE_TEST_SUITE_P(Filters, FusionWorkersTest, ::testing::Values("counting", "tqt", "bmf"),
+                         [](const auto& tested) { return tested.param; });
 
 // Under the thread sanitizer: several writers, changes of the roster and of filters, health, all at
 // once; and every sample is accounted for.
