@@ -61,7 +61,7 @@ SampleVerdict BoundedMotionFilter<Scalar>::Update(const sensing::MargSample& sam
 
 template <typename Scalar>
 SampleStep BoundedMotionFilter<Scalar>::Pass(const sensing::MargSample& sample) {
-  gated_ = state_.gate.Pass(sample);
+  state_.gate.Pass(sample, gated_);
   if (!gated_.usable()) {
     return SampleStep::kNone;
   }

@@ -82,7 +82,7 @@ SampleVerdict GaussNewtonOrientation::Update(const sensing::MargSample& sample) 
 }
 
 SampleStep GaussNewtonOrientation::Pass(const sensing::MargSample& sample) {
-  gated_ = state_.gate.Pass(sample);
+  state_.gate.Pass(sample, gated_);
   if (!gated_.usable()) {
     return SampleStep::kNone;
   }

@@ -62,7 +62,14 @@ class GaussNewtonOrientation final : public OrientationFilter {
   /// Calls copy(member) for what Report needs of the core.
   template <typename Copy>
   static void ForEachReported(CoreState& core, Copy copy) {
-    copy(core);
+    copy(core.q_ES);
+    copy(core.w_ES_S_rad_s);
+    copy(core.free_accel_E_m_s2);
+    copy(core.null_rad_s);
+    copy(core.rest.still_s);
+    copy(core.field_mean_square);
+    copy(core.var_tilt_rad2);
+    copy(core.var_heading_rad2);
   }
 
  private:

@@ -90,12 +90,12 @@ void SampleGate::FillGyro(bool measured, const Eigen::Vector3d& gyro_rad_s, Gate
   }
 }
 
-GatedSample SampleGate::Pass(const sensing::MargSample& sample) {
-  GatedSample out;
+void SampleGate::Pass(const sensing::MargSample& sample, GatedSample& out) {
+  out = GatedSample();
   constexpr std::uint32_t kAllMissing =
       MargFlag::kGyroMissing | MargFlag::kAccelMissing | MargFlag::kMagMissing;
   if (sample.Has(MargFlag::kProbe) || (sample.flags & kAllMissing) == kAllMissing) {
-    return out;
+    return;
   }
   const Eigen::Vector3d gyro_rad_s = sample.gyro_rad_s.cast<double>();
   out.accel_m_s2 = sample.accel_m_s2.cast<double>();
@@ -114,12 +114,12 @@ GatedSample SampleGate::Pass(const sensing::MargSample& sample) {
   if (!gyro_usable && !out.accel_valid && !out.mag_valid) {
     out.verdict = gyro_finite && accel_finite && mag_finite ? SampleVerdict::kRejectedSaturated
                                                             : SampleVerdict::kRejectedNotFinite;
-    return out;
+    return;
   }
   const std::int64_t now_ns = ToNanoseconds(sample.measured_at);
   out.verdict = CheckTime(now_ns, out);
   if (!out.usable()) {
-    return out;
+    return;
   }
   if (state_.has_time && out.dt_s > 0.0) {
     LearnNominal(out.dt_s, out.gap || out.restart);
@@ -133,7 +133,6 @@ GatedSample SampleGate::Pass(const sensing::MargSample& sample) {
   state_.has_time = true;
   state_.last_ns = now_ns;
   state_.rejected_run = 0;
-  return out;
 }
 
 }  // namespace limbcast::filters

@@ -48,7 +48,13 @@ struct SampleGateState {
 /// new time that the old one must have been wrong: there is always a way back. Thread-compatible.
 class SampleGate {
  public:
-  [[nodiscard]] GatedSample Pass(const sensing::MargSample& sample);
+  [[nodiscard]] GatedSample Pass(const sensing::MargSample& sample) {
+    GatedSample out;
+    Pass(sample, out);
+    return out;
+  }
+  /// The same into a place that is there already.
+  void Pass(const sensing::MargSample& sample, GatedSample& out);
 
   /// Time without a usable magnetometer reading; infinite when there never was one.
   [[nodiscard]] double mag_absent_s() const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bitset>
 #include <cstddef>
@@ -41,14 +42,15 @@ class SensorBatch final : public AnySensorBatch {
   using CoreState = typename Filter::CoreState;
   using Kernel = void (*)(const Config&, const std::byte* inputs, std::byte* states);
 
-  /// @param width  lanes of the kernel; divides kSeats.
+  /// @param width  lanes of the kernel.
   SensorBatch(const Config& config, Kernel kernel, int width)
       : config_(config),
         kernel_(kernel),
         width_(width),
+        present_offset_(PresentOffset(width)),
         inputs_(MakeBlocks<CoreInput>()),
         states_(MakeBlocks<CoreState>()) {
-    Expects(width >= 1 && kSeats % width == 0, "a width that divides the seats");
+    Expects(lanes::IsBlockWidth(width), "a width that there is");
   }
 
   /// A filter that steps here, or null when all seats are taken. Its owner keeps the batch.
@@ -63,17 +65,18 @@ class SensorBatch final : public AnySensorBatch {
   }
 
   void Run() override {
+    if (submitted_.none()) {
+      return;
+    }
+    constexpr unsigned long kAll = (1UL << kSeats) - 1UL;
+    const unsigned long group = kAll >> static_cast<unsigned>(kSeats - width_);
     for (int first = 0; first < kSeats; first += width_) {
-      bool wanted = false;
-      for (int seat = first; seat < first + width_; ++seat) {
-        wanted = wanted || submitted_[Index(seat)];
-      }
-      if (wanted) {
+      if (((submitted_.to_ulong() >> static_cast<unsigned>(first)) & group) != 0) {
         std::byte* const inputs = At(inputs_, first);
         kernel_(config_, inputs, At(states_, first));
-        for (int seat = first; seat < first + width_; ++seat) {
-          SetPresent(seat, Number(0));
-        }
+        // `present` of all lanes: none has a reading until the next Submit.
+        std::fill_n(inputs + present_offset_, static_cast<std::size_t>(width_) * sizeof(Number),
+                    std::byte{0});
       }
     }
     submitted_.reset();
@@ -91,7 +94,13 @@ class SensorBatch final : public AnySensorBatch {
   class Seated final : public BatchedFilter {
    public:
     Seated(std::shared_ptr<SensorBatch> batch, int seat, std::unique_ptr<Filter> filter)
-        : batch_(std::move(batch)), seat_(seat), filter_(std::move(filter)) {
+        : batch_(std::move(batch)),
+          seat_(seat),
+          width_(batch_->width_),
+          lane_(seat % width_),
+          inputs_(batch_->At(batch_->inputs_, seat)),
+          states_(batch_->At(batch_->states_, seat)),
+          filter_(std::move(filter)) {
       batch_->taken_.set(Index(seat_));
     }
     Seated(const Seated&) = delete;
@@ -102,12 +111,10 @@ class SensorBatch final : public AnySensorBatch {
       step_ = filter_->Pass(sample);
       if (step_ == SampleStep::kPlain) {
         if (!in_batch_) {
-          lanes::PutLane<CoreState, Number>(batch_->At(batch_->states_, seat_), batch_->width_,
-                                            seat_ % batch_->width_, filter_->core_state());
+          lanes::PutLane<CoreState, Number>(states_, width_, lane_, filter_->core_state());
           in_batch_ = true;
         }
-        lanes::PutLane<CoreInput, Number>(batch_->At(batch_->inputs_, seat_), batch_->width_,
-                                          seat_ % batch_->width_, filter_->core_input());
+        lanes::PutLane<CoreInput, Number>(inputs_, width_, lane_, filter_->core_input());
         batch_->submitted_.set(Index(seat_));
       }
     }
@@ -155,13 +162,11 @@ class SensorBatch final : public AnySensorBatch {
     // The core in the filter gets the batch's value of one of its members.
     template <typename Member>
     void Fetch(Member& member) const {
-      static_assert(sizeof(Member) % sizeof(Number) == 0);
       const auto* const core = reinterpret_cast<const std::byte*>(&filter_->core_state());
       const auto offset =
           static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&member) - core);
-      const std::byte* const block =
-          batch_->At(batch_->states_, seat_) + offset * static_cast<std::size_t>(batch_->width_);
-      lanes::GetLane<Member, Number>(block, batch_->width_, seat_ % batch_->width_, member);
+      lanes::GetLane<Member, Number>(states_ + offset * static_cast<std::size_t>(width_), width_,
+                                     lane_, member);
     }
     void FetchAll() const {
       if (in_batch_) {
@@ -171,6 +176,10 @@ class SensorBatch final : public AnySensorBatch {
 
     std::shared_ptr<SensorBatch> batch_;
     int seat_;
+    int width_;
+    int lane_;
+    std::byte* inputs_;  // of its group
+    std::byte* states_;
     std::unique_ptr<Filter> filter_;
     SampleStep step_ = SampleStep::kNone;
     bool in_batch_ = false;  // the core there is newer than the filter's own
@@ -188,19 +197,19 @@ class SensorBatch final : public AnySensorBatch {
     const std::size_t cells = blocks.size() / static_cast<std::size_t>(kSeats / width_);
     return blocks[cells * static_cast<std::size_t>(seat / width_)].bytes.data();
   }
-  void SetPresent(int seat, Number present) {
+  // Where the flags `present` of a block of inputs begin.
+  [[nodiscard]] static std::size_t PresentOffset(int width) {
     const CoreInput layout{};
-    const auto offset =
-        static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&layout.present) -
-                                 reinterpret_cast<const std::byte*>(&layout));
-    lanes::PutLane<Number, Number>(At(inputs_, seat) + offset * static_cast<std::size_t>(width_),
-                                   width_, seat % width_, present);
+    const auto* const record = reinterpret_cast<const std::byte*>(&layout);
+    const auto* const member = reinterpret_cast<const std::byte*>(&layout.present);
+    return static_cast<std::size_t>(member - record) * static_cast<std::size_t>(width);
   }
   [[nodiscard]] static std::size_t Index(int seat) { return static_cast<std::size_t>(seat); }
 
   Config config_;
   Kernel kernel_;
   int width_;
+  std::size_t present_offset_;
   Blocks inputs_;
   Blocks states_;
   std::bitset<kSeats> taken_;

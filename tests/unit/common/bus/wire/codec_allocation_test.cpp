@@ -5,8 +5,8 @@
 
 #include "common/bus/wire/codec.hpp"
 #include "common/bus/wire/wire_types.hpp"
-#include "tests/unit/common/bus/random_values.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/unit/common/bus/random_values.hpp"
 
 namespace limbcast::bus::testing {
 namespace {
