@@ -30,15 +30,16 @@ void BoundedMotionStep<Scalar>::CheckField(const Means& means) {
   s.deviation_mean = lanes::Select(means.has_m, mean, s.deviation_mean);
   // At rest the same place is seen again and again, which says nothing about others.
   // A plain mean over the first `scatter_time_s` of motion, fading from then on.
-  const Mask still(AtRest() | !means.has_m);
-  const Scalar moving_s = lanes::Select(still, Scalar(0), T);
+  const Mask moving(lanes::Both(means.has_m, !AtRest()));
+  const Scalar moving_s = lanes::Select(moving, T, Scalar(0));
   s.scatter_s =
       lanes::Min(Scalar(s.scatter_s + moving_s), static_cast<Scalar>(config_.scatter_time_s));
   const Scalar share = moving_s / lanes::Max(s.scatter_s, T);
   s.east_mean += share * (m_b.x() - s.east_mean);
   const Scalar off_mean = m_b.x() - s.east_mean;
   s.east_scatter2 += share * (off_mean * off_mean - s.east_scatter2);
-  const Mask jumped(means.has_m & (mean > static_cast<Scalar>(config_.carried_jump_threshold_ref)));
+  const Mask jumped(
+      lanes::Both(means.has_m, mean > static_cast<Scalar>(config_.carried_jump_threshold_ref)));
   if (lanes::Any(jumped)) {
     const Scalar step = static_cast<Scalar>(config_.carried_jump_ref_rts) * mean;
     for (int i = kBm; i < kBm + 3; ++i) {
@@ -198,7 +199,8 @@ void BoundedMotionStep<Scalar>::GuardCovariance() {
   const auto most = Scalar(std::numeric_limits<lanes::NumberOf<Scalar>>::max());
   Mask sound(true);
   for (int i = 0; i < State::kDim; ++i) {
-    sound = Mask(sound & (s.P(i, i) >= Scalar(0)) & (s.P(i, i) <= most));  // false for NaN
+    sound = lanes::Both(sound,
+                        lanes::Both(s.P(i, i) >= Scalar(0), s.P(i, i) <= most));  // false for NaN
   }
   if (!lanes::All(sound)) {
     const auto before = s.P;

@@ -60,7 +60,7 @@ void BoundedMotionStep<Scalar>::Update(const Input& input) {
     lanes::KeepWhereNot<Scalar>(present, before, fast);
   }
   const Scalar period_s = static_cast<Scalar>(1.0 / config_.slow_rate_hz);
-  const Mask due(present & (state_.sum_t > period_s - Scalar(0.5) * input.dt_s));
+  const Mask due(lanes::Both(present, state_.sum_t > period_s - Scalar(0.5) * input.dt_s));
   if (lanes::All(due)) {
     SlowStep();
   } else if (lanes::Any(due)) {
@@ -102,7 +102,7 @@ void BoundedMotionStep<Scalar>::Integrate(const Input& input) {
 template <typename Scalar>
 void BoundedMotionStep<Scalar>::DetectRest(const Input& input) {
   State& s = state_;
-  const Mask judged(lanes::IsSet(input.accel_valid) & lanes::IsSet(input.rest_allowed));
+  const Mask judged(lanes::Both(lanes::IsSet(input.accel_valid), lanes::IsSet(input.rest_allowed)));
   if (!lanes::Any(judged)) {
     s.rest_time_s = Scalar(0);
     return;
@@ -115,14 +115,14 @@ void BoundedMotionStep<Scalar>::DetectRest(const Input& input) {
   low_a += gain * (input.accel_m_s2 - low_a);
   const auto kGyro2 = static_cast<Scalar>(kRestGyro_rad_s * kRestGyro_rad_s);
   const auto kAccel2 = static_cast<Scalar>(kRestAccel_m_s2 * kRestAccel_m_s2);
-  const Mask still((Vector3(input.gyro_rad_s - low_g).squaredNorm() < kGyro2) &
-                   (Vector3(input.accel_m_s2 - low_a).squaredNorm() < kAccel2) &
-                   (Vector3(low_g - s.b_g).squaredNorm() < kGyro2));
+  const Mask steady(lanes::Both(Vector3(input.gyro_rad_s - low_g).squaredNorm() < kGyro2,
+                                Vector3(input.accel_m_s2 - low_a).squaredNorm() < kAccel2));
+  const Mask still(lanes::Both(steady, Vector3(low_g - s.b_g).squaredNorm() < kGyro2));
   s.low_g = Choose<Scalar>(judged, low_g, s.low_g);
   s.low_a = Choose<Scalar>(judged, low_a, s.low_a);
   s.low_started = lanes::Select(judged, Scalar(1), s.low_started);
   s.rest_time_s =
-      lanes::Select(Mask(judged & still), Scalar(s.rest_time_s + input.dt_s), Scalar(0));
+      lanes::Select(lanes::Both(judged, still), Scalar(s.rest_time_s + input.dt_s), Scalar(0));
 }
 
 template <typename Scalar>
@@ -132,7 +132,7 @@ void BoundedMotionStep<Scalar>::SlowStep() {
   means.T = s.sum_t;
   means.R = s.sum_R / s.n;
   means.has_f = s.n_f > Scalar(0);
-  means.has_m = Mask((s.n_m > Scalar(0)) & lanes::IsSet(s.has_field));
+  means.has_m = lanes::Both(s.n_m > Scalar(0), lanes::IsSet(s.has_field));
   means.f = Choose<Scalar>(means.has_f, s.sum_f / s.n_f,
                            Vector3(Scalar(0), Scalar(0), Scalar(kGravity_m_s2)));
   means.m = Choose<Scalar>(means.has_m, s.sum_m / (s.n_m * s.m_ref), Vector3::Zero());

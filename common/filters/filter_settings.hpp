@@ -146,9 +146,12 @@ template <typename Config>
       known += (known.empty() ? "" : ", ") + std::string(field.name);
     }
     if (found == nullptr) {
-      return Error{
-          ErrorCode::kInvalidArgument,
-          "filter " + std::string(owner) + " has no setting '" + key + "', it has " + known};
+      return Error{ErrorCode::kInvalidArgument, std::string("filter ")
+                                                    .append(owner)
+                                                    .append(" has no setting '")
+                                                    .append(key)
+                                                    .append("', it has ")
+                                                    .append(known)};
     }
     if (Status set = SetField(owner, config, *found, text); !set) {
       return set.error();

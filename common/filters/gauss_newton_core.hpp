@@ -70,7 +70,8 @@ inline constexpr double kMostVariance_rad2 = 3.3;  // uniform over a turn: π²/
 template <typename T>
 inline void CalibrateNull(const GaussNewtonConfig& config, const GaussNewtonInput<T>& in,
                           GaussNewtonState<T>& s) {
-  const lanes::MaskOf<T> both(lanes::IsSet(in.gyro_measured) & lanes::IsSet(in.accel_valid));
+  const lanes::MaskOf<T> both(
+      lanes::Both(lanes::IsSet(in.gyro_measured), lanes::IsSet(in.accel_valid)));
   if (lanes::All(both)) {
     kernel::UpdateRest(in.gyro_rad_s, in.accel_m_s2, s.null_rad_s, in.dt_s, s.rest);
   } else {
@@ -91,7 +92,8 @@ inline void CalibrateNull(const GaussNewtonConfig& config, const GaussNewtonInpu
   const T count = lanes::Select(still, T(s.null_count + T(1)), T(0));
   s.null_sum_rad_s = Select<T>(learning, sum, s.null_sum_rad_s);
   s.null_count = lanes::Select(learning, count, s.null_count);
-  const lanes::MaskOf<T> done(learning & still & (s.rest.still_s >= T(config.null_time_s)));
+  const lanes::MaskOf<T> done(
+      lanes::Both(learning, lanes::Both(still, s.rest.still_s >= T(config.null_time_s))));
   if (lanes::Any(done)) {
     const kernel::Vector<T> mean{sum.x / count, sum.y / count, sum.z / count};
     s.null_rad_s = Select<T>(done, mean, s.null_rad_s);
@@ -210,8 +212,8 @@ inline void Step(const GaussNewtonConfig& config, const GaussNewtonInput<T>& in,
                          : kMeasurementOnlySteps;
     for (int i = 0; i < most; ++i) {
       const auto corrected = correct(q, h0, b0, rho2, gain);
-      const lanes::MaskOf<T> takes(accel_valid &
-                                   (lanes::MaskOf<T>(i < config.iterations) | !usable));
+      const lanes::MaskOf<T> takes =
+          i < config.iterations ? accel_valid : lanes::Both(accel_valid, !usable);
       q = lanes::All(takes) ? corrected : Select<T>(takes, corrected, q);
     }
   }

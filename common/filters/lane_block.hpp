@@ -37,7 +37,8 @@ inline void Gather(const std::byte* from, std::byte* to) {
 template <typename RecordOfS, typename S>
 inline void PutLane(std::byte* block, int width, int lane, const RecordOfS& record) {
   static_assert(sizeof(RecordOfS) % sizeof(S) == 0);
-  constexpr std::size_t kNumbers = sizeof(RecordOfS) / sizeof(S);
+  constexpr std::size_t kNumbers =
+      sizeof(RecordOfS) / sizeof(S);  // NOLINT(bugprone-sizeof-expression): a record may be one S
   const auto* from = reinterpret_cast<const std::byte*>(&record);
   std::byte* to = block + static_cast<std::size_t>(lane) * sizeof(S);
   if (width == 4) {
@@ -53,7 +54,8 @@ inline void PutLane(std::byte* block, int width, int lane, const RecordOfS& reco
 template <typename RecordOfS, typename S>
 inline void GetLane(const std::byte* block, int width, int lane, RecordOfS& record) {
   static_assert(sizeof(RecordOfS) % sizeof(S) == 0);
-  constexpr std::size_t kNumbers = sizeof(RecordOfS) / sizeof(S);
+  constexpr std::size_t kNumbers =
+      sizeof(RecordOfS) / sizeof(S);  // NOLINT(bugprone-sizeof-expression): a record may be one S
   auto* to = reinterpret_cast<std::byte*>(&record);
   const std::byte* from = block + static_cast<std::size_t>(lane) * sizeof(S);
   if (width == 4) {

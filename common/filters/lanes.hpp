@@ -133,6 +133,13 @@ template <typename S, int kBytes>
   return !Any(!mask);
 }
 
+/// a and b, lane by lane.
+[[nodiscard]] constexpr bool Both(bool a, bool b) { return a && b; }
+template <typename S, int kBytes>
+[[nodiscard]] inline PackMask<S, kBytes> Both(PackMask<S, kBytes> a, PackMask<S, kBytes> b) {
+  return a & b;
+}
+
 /// A truth value as a number, for states and inputs that consist of nothing but numbers.
 template <typename T>
 [[nodiscard]] inline MaskOf<T> IsSet(T flag) {

@@ -36,12 +36,13 @@ inline void UpdateRest(const Vector<T>& gyro_rad_s, const Vector<T>& accel_m_s2,
   const Vector<T> shaken_a = accel_m_s2 - low_a;
   const Vector<T> turning = low_g - gyro_bias_rad_s;
   constexpr double kGyro2 = kStillGyro_rad_s * kStillGyro_rad_s;
-  const auto still = (Dot(shaken_g, shaken_g) < T(kGyro2)) &
-                     (Dot(shaken_a, shaken_a) < T(kStillAccel_m_s2 * kStillAccel_m_s2)) &
-                     (Dot(turning, turning) < T(kGyro2));
+  const lanes::MaskOf<T> steady(
+      lanes::Both(Dot(shaken_g, shaken_g) < T(kGyro2),
+                  Dot(shaken_a, shaken_a) < T(kStillAccel_m_s2 * kStillAccel_m_s2)));
+  const lanes::MaskOf<T> still(lanes::Both(steady, Dot(turning, turning) < T(kGyro2)));
   rest.low_gyro_rad_s = low_g;
   rest.low_accel_m_s2 = low_a;
-  rest.still_s = lanes::Select(lanes::MaskOf<T>(still), T(rest.still_s + dt_s), T(0));
+  rest.still_s = lanes::Select(still, T(rest.still_s + dt_s), T(0));
   rest.started = T(1);
 }
 

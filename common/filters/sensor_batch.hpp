@@ -122,7 +122,8 @@ class SensorBatch final : public AnySensorBatch {
     SampleVerdict Take() override {
       switch (step_) {
         case SampleStep::kPlain:
-          Filter::ForEachReported(filter_->core_state(), [this](auto& member) { Fetch(member); });
+          Filter::ForEachReported(filter_->core_state(),
+                                  [this](auto& member) { this->Fetch(member); });
           return filter_->Report();
         case SampleStep::kSpecial:
           FetchAll();
