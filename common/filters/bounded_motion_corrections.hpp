@@ -161,13 +161,15 @@ void BoundedMotionStep<Scalar>::Inject(const Eigen::Matrix<Scalar, State::kRows,
   State& s = state_;
   s.q_ES = Exp<Scalar>(dx.template segment<3>(kTheta)) * s.q_ES;
   s.east_mean -= s.m_0.y() * dx(2);  // the mean turns with the heading it was seen in
+  const auto bounded = [](Scalar value, double most) {
+    return lanes::Min(lanes::Max(value, Scalar(-most)), Scalar(most));
+  };
   for (int i = 0; i < 3; ++i) {
-    const Scalar bias = lanes::Max(Scalar(s.b_g[i] + dx[kBg + i]), Scalar(-kMaxGyroBias_rad_s));
-    s.b_g[i] = lanes::Min(bias, Scalar(kMaxGyroBias_rad_s));
+    s.b_g[i] = bounded(Scalar(s.b_g[i] + dx[kBg + i]), kMaxGyroBias_rad_s);
+    s.b_a[i] = bounded(Scalar(s.b_a[i] + dx[kBa + i]), kMaxAccelBias_m_s2);
   }
   s.v_h += dx.template segment<2>(kV);
   s.p_h += dx.template segment<2>(kP);
-  s.b_a += dx.template segment<3>(kBa);
   s.b_m += dx.template segment<3>(kBm);
   s.m_0.template tail<2>() += dx.template segment<2>(kM0);
   for (int j = 0; j < 3; ++j) {

@@ -22,6 +22,7 @@ inline constexpr int kM0 = 25;
 inline constexpr int kMagnetic[6] = {2, kBm, kBm + 1, kBm + 2, kM0, kM0 + 1};
 
 inline constexpr double kMaxGyroBias_rad_s = 2.0 * 3.14159265358979323846 / 180.0;
+inline constexpr double kMaxAccelBias_m_s2 = 0.5;  // 50 mg: a sensor beyond that is broken
 inline constexpr double kRestLowPass_s = 0.5;
 inline constexpr double kRestGyro_rad_s = 2.0 * 3.14159265358979323846 / 180.0;
 inline constexpr double kRestAccel_m_s2 = 0.5;

@@ -65,13 +65,13 @@ TEST(AttitudeWatchdogTest, LeavesTheErrorsOfAHealthyFilterAlone) {
   EXPECT_EQ(Watch(math::ExpSO3({0.0, 0.0, 10.0 * kDeg}), 600.0).loss, AttitudeLoss::kNone);
 }
 
-TEST(AttitudeWatchdogTest, ReportsAnUpsideDownAttitudeWithinSixSeconds) {
+TEST(AttitudeWatchdogTest, ReportsATiltedAttitudeWithinSevenSeconds) {
   for (const double tilt_deg : {40.0, 90.0, 180.0}) {
     const Outcome outcome = Watch(math::ExpSO3({tilt_deg * kDeg, 0.0, 0.0}), 60.0);
     EXPECT_EQ(outcome.loss, AttitudeLoss::kTilt) << tilt_deg;
-    // 4 s beyond the limit, which the 3 s mean crosses after 3·ln(1/(1 − 0.35/|1 − e^{jφ}|)) ≤ 2.2
-    // s.
-    EXPECT_LT(outcome.after_s, 6.5) << tilt_deg;
+    // 4 s beyond the limit, which the 3 s mean crosses after 3·ln(1/(1 − 0.35/|1 − e^{jφ}|)), 2.2 s
+    // for 40°; what is left of the shaking in the mean (0.1 g) delays that by up to 0.5 s.
+    EXPECT_LT(outcome.after_s, 6.7) << tilt_deg;
   }
 }
 
