@@ -77,7 +77,10 @@ void BoundedMotionStep<Scalar>::CorrectRest(Scalar T) {
   const auto square = [](double sigma) { return static_cast<Scalar>(sigma * sigma); };
   CorrectDirect<2>(AtRest(), kV, -state_.v_h, square(config_.sigma_zero_velocity_m_s));
   const Vector3 turn_rad_s = state_.low_g - state_.b_g;
-  const auto persistence_s = static_cast<Scalar>(config_.rest_turn_persistence_s);
+  // Nobody turns slowly for long: the longer the rest, the less of it can be a turn.
+  const Scalar rested_s = lanes::Max(state_.rest_time_s, Scalar(kRestAfter_s));
+  const Scalar persistence_s = static_cast<Scalar>(config_.rest_turn_persistence_s) *
+                               lanes::Sqrt(Scalar(Scalar(kRestAfter_s) / rested_s));
   CorrectDirect<3>(AtRest(), kBg, turn_rad_s,
                    (square(config_.sigma_rest_rad_s_rts) +
                     Scalar(2) * persistence_s * turn_rad_s.squaredNorm()) /
@@ -135,6 +138,7 @@ void BoundedMotionStep<Scalar>::CorrectField(const Means& means) {
   }
   Eigen::Matrix<Scalar, State::kRows, 3> K = K_optimal;
   if (config_.mag_heading_only) {
+    constexpr int kMagnetic[6] = {2, kBm, kBm + 1, kBm + 2, kM0, kM0 + 1};
     K.setZero();
     for (const int a : kMagnetic) {
       K.row(a) = K_optimal.row(a);

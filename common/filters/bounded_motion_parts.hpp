@@ -19,7 +19,6 @@ inline constexpr int kBa = 10;
 inline constexpr int kBm = 13;
 inline constexpr int kS = 16;
 inline constexpr int kM0 = 25;
-inline constexpr int kMagnetic[6] = {2, kBm, kBm + 1, kBm + 2, kM0, kM0 + 1};
 
 inline constexpr double kMaxGyroBias_rad_s = 2.0 * 3.14159265358979323846 / 180.0;
 inline constexpr double kMaxAccelBias_m_s2 = 0.5;  // 50 mg: a sensor beyond that is broken
