@@ -16,6 +16,7 @@
 #include "tools/limbcast/evaluate/orientation_report.hpp"
 #include "tools/limbcast/evaluate/orientation_trial.hpp"
 #include "tools/limbcast/evaluate/progress_bar.hpp"
+#include "tools/limbcast/evaluate_gaps_command.hpp"
 #include "tools/limbcast/evaluate_published_command.hpp"
 
 namespace limbcast::tool {
@@ -210,8 +211,12 @@ SubCommand AddEvaluateCommand(service::ServiceCommandLine& line) {
                   "Folder for <filter>/<trial>.csv (w,x,y,z) and report.html");
   app->add_option("--json", options->json, "File for the figures");
   const SubCommand published = AddEvaluatePublishedCommand(*evaluate);
-  return {.app = evaluate, .run = [options, published] {
-            return published.app->parsed() ? published.run() : EvaluateOrientation(*options);
+  const SubCommand gaps = AddEvaluateGaps(*evaluate);
+  return {.app = evaluate, .run = [options, published, gaps] {
+            if (published.app->parsed()) {
+              return published.run();
+            }
+            return gaps.app->parsed() ? gaps.run() : EvaluateOrientation(*options);
           }};
 }
 

@@ -6,6 +6,7 @@
 #include "tools/limbcast/echo_command.hpp"
 #include "tools/limbcast/evaluate_command.hpp"
 #include "tools/limbcast/run_command.hpp"
+#include "tools/limbcast/smooth_command.hpp"
 #include "tools/limbcast/sub_command.hpp"
 #include "tools/limbcast/top_command.hpp"
 
@@ -20,7 +21,7 @@ int main(int argc, char** argv) {
   line.app().fallthrough();
   const std::array commands = {
       tool::AddDemoCommand(line), tool::AddTopCommand(line),      tool::AddRunCommand(line),
-      tool::AddEchoCommand(line), tool::AddEvaluateCommand(line),
+      tool::AddEchoCommand(line), tool::AddEvaluateCommand(line), tool::AddSmoothCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;

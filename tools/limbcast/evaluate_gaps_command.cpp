@@ -1,0 +1,112 @@
+#include "tools/limbcast/evaluate_gaps_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/gateway/drivers/replay/recording_reader.hpp"
+#include "tools/limbcast/evaluate/gap_report.hpp"
+#include "tools/limbcast/evaluate/orientation_report.hpp"
+#include "tools/limbcast/position_settings.hpp"
+
+namespace limbcast::tool {
+namespace {
+
+struct GapOptions {
+  std::string data;
+  std::vector<double> gaps_s;
+  std::vector<int> ratios;
+  std::vector<std::string> settings;
+  std::string json;
+};
+
+int Refuse(const Error& error) {
+  fmt::print(stderr, "limbcast evaluate gaps: {}\n", error.message);
+  return 2;
+}
+
+std::vector<std::filesystem::path> RecordingsIn(const std::string& data) {
+  std::error_code failed;
+  if (!std::filesystem::is_directory(data, failed)) {
+    return {data};
+  }
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(data, failed)) {
+    const auto extension = entry.path().extension();
+    if (extension == ".hdf5" || extension == ".h5" || extension == ".csv") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+int EvaluateGapsIn(const GapOptions& options) {
+  const auto config = PositionConfigFrom(options.settings);
+  if (!config) {
+    return Refuse(config.error());
+  }
+  if (options.gaps_s.empty() && options.ratios.empty()) {
+    return Refuse({ErrorCode::kInvalidArgument, "--gap or --ratio is missing, e.g. --gap 0.5,2"});
+  }
+  const auto files = RecordingsIn(options.data);
+  if (files.empty()) {
+    return Refuse({ErrorCode::kNotFound,
+                   "--data " + options.data + " holds no recording (.hdf5, .h5 or .csv)"});
+  }
+  std::vector<GapResult> results;
+  for (const std::filesystem::path& file : files) {
+    const auto recording = gateway::ReadRecording(file);
+    if (!recording) {
+      return Refuse(recording.error());
+    }
+    const auto trial = GapTrialOf(*recording, file.stem().string());
+    if (!trial) {
+      return Refuse({ErrorCode::kCorruptData,
+                     file.string() + " has no samples with a known position to compare with"});
+    }
+    for (const double gap_s : options.gaps_s) {
+      results.push_back(EvaluateGaps(*config, *trial, gap_s));
+    }
+    for (const int ratio : options.ratios) {
+      results.push_back(EvaluateRatio(*config, *trial, ratio));
+    }
+  }
+  fmt::print("{}", GapTable(results, options.settings));
+  if (!options.json.empty()) {
+    if (Status saved = SaveText(options.json, GapJson(results, options.settings).dump(2) + "\n");
+        !saved) {
+      return Refuse(saved.error());
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+SubCommand AddEvaluateGaps(CLI::App& evaluate) {
+  auto options = std::make_shared<GapOptions>();
+  CLI::App* app = evaluate.add_subcommand(
+      "gaps",
+      "Errors of positions in gaps of the optical marker: forward, fixed lag, smoothed, "
+      "spline.\nExample:\n  limbcast evaluate gaps --data ../shared/data/broad --gap 0.1,0.5,2 "
+      "--json /tmp/gaps.json");
+  app->add_option("--data", options->data, "A recording, or a folder of recordings")->required();
+  app->add_option("--gap", options->gaps_s, "Lengths of gaps in seconds, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(0.001, 60.0));
+  app->add_option("--ratio", options->ratios,
+                  "Inertial samples for each marker, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 10000));
+  app->add_option("--set", options->settings, "key=value of the position filter")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--json", options->json, "File for the figures");
+  return {.app = app, .run = [options] { return EvaluateGapsIn(*options); }};
+}
+
+}  // namespace limbcast::tool
