@@ -304,7 +304,9 @@ std::span<const char> Payload(const ddsi_serdata* data) {
 ddsi_serdata* MakeSerdata(const ddsi_sertype* type, ddsi_serdata_kind kind,
                           std::span<const char> bytes) {
   Serdata* data = NewSerdata(type, kind, bytes.size());
-  std::memcpy(data->bytes(), bytes.data(), bytes.size());
+  if (!bytes.empty()) {
+    std::memcpy(data->bytes(), bytes.data(), bytes.size());
+  }
   return Finish(data);
 }
 
