@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/bus/bus_factory.hpp"
+#include "common/filters/filter_batches.hpp"
 #include "common/filters/filter_factory.hpp"
 #include "common/math/rotation.hpp"
 #include "services/gateway/drivers/replay/recording_reader.hpp"
@@ -282,7 +283,8 @@ TEST_P(FusionOutputTest, IsWhatEvaluateComputesSampleForSampleAndBitForBit) {
   for (const auto& [slot, name] : {std::pair{0U, "bmf"}, std::pair{1U, "tqt"}}) {
     auto filter = filters::MakeFilter(name);
     ASSERT_TRUE(filter.ok());
-    ExpectSame(States(slot), tool::EvaluateTrial(trials[0], **filter));
+    const auto seated = filters::FilterBatches().Seat(std::move(*filter));
+    ExpectSame(States(slot), tool::EvaluateTrial(trials[0], *seated));
   }
   StopFusion();
 }

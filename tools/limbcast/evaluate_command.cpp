@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/filters/filter_batches.hpp"
 #include "common/filters/filter_factory.hpp"
 #include "services/gateway/drivers/replay/recording_reader.hpp"
 #include "tools/limbcast/evaluate/orientation_report.hpp"
@@ -176,8 +177,11 @@ int EvaluateOrientation(const EvaluateOptions& options) {
     for (const PreparedFilter& filter : *prepared) {
       ShowProgress(done, all, file.stem().string() + " " + filter.name);
       for (const OrientationTrial& trial : trials) {
+        // Seated as in the fusion service: lanes add in another order than a filter alone, and the
+        // last digit is to be the same.
         auto made = filters::MakeFilter(filter.name, filter.settings);
-        results.push_back(EvaluateTrial(trial, **made));
+        const auto seated = filters::FilterBatches().Seat(std::move(*made));
+        results.push_back(EvaluateTrial(trial, *seated));
       }
       ++done;
     }
