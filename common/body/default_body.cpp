@@ -173,6 +173,7 @@ Status SetDimension(std::string_view name, double length_m, BodyDefinition& body
       return fresh.error();
     }
     std::vector<Segment> kept;
+    kept.reserve(body.segments.size());
     for (const SegmentDefinition& definition : body.segments) {
       kept.push_back(definition.segment);
     }

@@ -31,9 +31,11 @@ Result<std::unique_ptr<Reader<T>>> MakeCycloneReader(CycloneParticipant& partici
 }
 
 /// Instantiates both for one topic.
+// NOLINTBEGIN(bugprone-macro-parentheses): a type in parentheses is no type
 #define LIMBCAST_CYCLONE_ENDPOINTS(Domain)                                                         \
   template Result<std::unique_ptr<Writer<Domain>>> MakeCycloneWriter<Domain>(CycloneParticipant&); \
   template Result<std::unique_ptr<Reader<Domain>>> MakeCycloneReader<Domain>(                      \
       CycloneParticipant&, ReaderHandler<Domain>)
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace limbcast::bus::cyclone

@@ -31,9 +31,11 @@ Result<std::unique_ptr<Reader<T>>> MakeFastReader(FastParticipant& participant,
 }
 
 /// Instantiates both for one topic.
+// NOLINTBEGIN(bugprone-macro-parentheses): a type in parentheses is no type
 #define LIMBCAST_FAST_ENDPOINTS(Domain)                                                      \
   template Result<std::unique_ptr<Writer<Domain>>> MakeFastWriter<Domain>(FastParticipant&); \
   template Result<std::unique_ptr<Reader<Domain>>> MakeFastReader<Domain>(FastParticipant&,  \
                                                                           ReaderHandler<Domain>)
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace limbcast::bus::fastdds

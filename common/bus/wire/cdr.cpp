@@ -34,10 +34,12 @@ std::string_view WireTypeName() {
   return Codec<T>::kTypeName;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type in parentheses is no type
 #define LIMBCAST_CDR(Domain)                                                     \
   template Status EncodeCdr<Domain>(const Domain&, std::vector<std::byte>&);     \
   template Status DecodeCdr<Domain>(std::span<const std::byte>, Domain & value); \
   template std::string_view WireTypeName<Domain>()
+// NOLINTEND(bugprone-macro-parentheses)
 
 LIMBCAST_CDR(sensing::MargSample);
 LIMBCAST_CDR(sensing::MargFrame);

@@ -59,7 +59,7 @@ inline void CheckText(Misfit& misfit, std::string_view name, const std::string& 
                       std::size_t limit) {
   if (text.size() > limit) {
     misfit.Note(name, "characters", text.size(), limit);
-  } else if (std::memchr(text.data(), '\0', text.size()) != nullptr) {
+  } else if (text.find('\0') != std::string::npos) {
     misfit.Note(name, "NUL characters", 1, 0);
   }
 }
