@@ -12,6 +12,7 @@ namespace {
 constexpr double kMinSpeed = 0.01;
 constexpr double kMaxSpeed = 1000.0;
 constexpr std::size_t kMaxNameLength = 64;  // bound of the wire types
+constexpr std::size_t kMaxPathLength = 1024;
 
 constexpr std::array<std::pair<std::string_view, WaitFor>, 3> kWaitForNames = {
     {{"none", WaitFor::kNone}, {"fusion", WaitFor::kFusion}, {"posture", WaitFor::kPosture}}};
@@ -54,6 +55,8 @@ GatewayConfig ReadGatewayConfig(const config::Section& section, GatewayConfig de
   config.pace = ReadPace(section, config.pace);
   config.loop = section.Read("loop", config.loop);
   config.exit_at_end = section.Read("exit_at_end", config.exit_at_end);
+  config.calibration_folder =
+      section.Read("calibration_folder", config.calibration_folder, kMaxPathLength);
   config.marg_frame = section.Read("marg_frame", config.marg_frame);
   constexpr auto kAnyNumber = std::numeric_limits<std::uint32_t>::max();
   config.gateway_id = section.Read("gateway_id", config.gateway_id, 0U, kAnyNumber);

@@ -28,6 +28,10 @@ struct GatewayConfig {
   /// End the process when the data ends; else stay and say so in `health`.
   bool exit_at_end = false;
 
+  /// Folder with the sensors' calibrations (`limbcast calibrate sensor --out`); their readings are
+  /// corrected before they are published. Empty: raw readings. At most 1024 characters.
+  std::string calibration_folder;
+
   /// All sensors of a body in one message (topic marg_frame) instead of one for each (marg).
   /// Cheaper for many people.
   bool marg_frame = false;

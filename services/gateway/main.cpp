@@ -9,6 +9,7 @@
 #include "common/runtime/thread_pool.hpp"
 #include "common/service/bus_events.hpp"
 #include "common/service/health_publisher.hpp"
+#include "services/gateway/calibrated_driver.hpp"
 #include "services/gateway/driver_factory.hpp"
 #include "services/gateway/gateway_command_line.hpp"
 #include "services/gateway/gateway_config.hpp"
@@ -37,7 +38,8 @@ int main(int argc, char** argv) {
   const Result<std::unique_ptr<bus::Bus>> bus = bus::Open(*bus_config, events.handler());
   if (!bus) return command.Fail(bus.error());
 
-  gateway::GatewayService service(config, std::move(*driver), clock, **bus, worker,
+  auto calibrated = gateway::WithCalibrations(std::move(*driver), config.calibration_folder);
+  gateway::GatewayService service(config, std::move(calibrated), clock, **bus, worker,
                                   [&] { stop_signal.Trigger(); });
   if (const Status started = service.Start(); !started) return command.Fail(started.error());
   const auto health =

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "services/gateway/calibrated_driver.hpp"
+
 namespace limbcast::tool {
 
 Result<AllInOneConfig> ReadAllInOne(const config::ConfigFile& file) {
@@ -40,7 +42,9 @@ Result<std::unique_ptr<AllInOne>> AllInOne::Make(const AllInOneConfig& config, c
   made->fusion_ =
       std::make_unique<fusion::FusionService>(config.fusion, clock, bus, *made->fusion_pool_);
   made->gateway_ = std::make_unique<gateway::GatewayService>(
-      config.gateway, std::move(*driver), clock, bus, *made->gateway_pool_, std::move(on_end));
+      config.gateway,
+      gateway::WithCalibrations(std::move(*driver), config.gateway.calibration_folder), clock, bus,
+      *made->gateway_pool_, std::move(on_end));
 
   const auto report = [&](const char* role, service::HealthPublisher::Fill fill,
                           std::unique_ptr<service::HealthPublisher>& publisher) -> Status {

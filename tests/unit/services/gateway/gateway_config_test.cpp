@@ -31,7 +31,8 @@ TEST(GatewayConfigTest, DefaultsAreValid) { EXPECT_TRUE(Validate(GatewayConfig{}
 TEST(GatewayConfigTest, EveryKeyIsRead) {
   const ReadBack read = Read(
       "driver = \"replay\"\nspeed = 2.5\nloop = true\nexit_at_end = true\nmarg_frame = true\n"
-      "gateway_id = 7\npublish_roster = false\npublish_truth = false\nsession = \"s\"\n"
+      "gateway_id = 7\ncalibration_folder = \"cal\"\npublish_roster = false\npublish_truth = "
+      "false\nsession = \"s\"\n"
       "body_id = 3\nwait_for = \"posture\"\nwait_timeout_s = 5\nwait_timeout_action = \"exit\"\n"
       "window_ticks = 4\nanswer_timeout_s = 0.5\nlinger_s = 0\n");
   ASSERT_TRUE(read.status.ok()) << read.status.error().message;
@@ -41,6 +42,7 @@ TEST(GatewayConfigTest, EveryKeyIsRead) {
   EXPECT_TRUE(read.config.exit_at_end);
   EXPECT_TRUE(read.config.marg_frame);
   EXPECT_EQ(read.config.gateway_id, 7U);
+  EXPECT_EQ(read.config.calibration_folder, "cal");
   EXPECT_FALSE(read.config.publish_roster);
   EXPECT_FALSE(read.config.publish_truth);
   EXPECT_EQ(read.config.session, "s");
