@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "common/service/service_command_line.hpp"
+#include "tools/limbcast/calibrate_command.hpp"
 #include "tools/limbcast/demo_command.hpp"
 #include "tools/limbcast/echo_command.hpp"
 #include "tools/limbcast/evaluate_command.hpp"
@@ -20,8 +21,9 @@ int main(int argc, char** argv) {
   line.app().require_subcommand(0, 1);  // none is said below, in our words
   line.app().fallthrough();
   const std::array commands = {
-      tool::AddDemoCommand(line), tool::AddTopCommand(line),      tool::AddRunCommand(line),
-      tool::AddEchoCommand(line), tool::AddEvaluateCommand(line), tool::AddSmoothCommand(line),
+      tool::AddDemoCommand(line),      tool::AddTopCommand(line),      tool::AddRunCommand(line),
+      tool::AddEchoCommand(line),      tool::AddEvaluateCommand(line), tool::AddSmoothCommand(line),
+      tool::AddCalibrateCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;
