@@ -116,6 +116,9 @@ void FitAccel(std::span<const MargSample> samples, const CalibrationSettings& se
     if (auto fit = FitEllipsoid(turning, config, " up")) {
       fit->method = "ellipsoid-moving";
       report.accel = {.fit = *fit, .refusal = {}, .readings = std::move(turning)};
+    } else {
+      report.accel.refusal =
+          "at rest: " + report.accel.refusal + "; while turning slowly: " + fit.error().message;
     }
   }
   if (!report.accel.fit || !settings.level_positions) {
@@ -213,7 +216,9 @@ bool AllThere(std::span<const MargSample> samples, const CarriedDirection& span)
 
 void FitGyroScale(std::span<const MargSample> samples, const std::vector<RestPose>& poses,
                   const CalibrationSettings& settings, SensorReport& report) {
-  report.gyro.refusal = "scale: needs the accelerometer or the magnetometer fitted";
+  if (!report.accel.fit && !report.mag.fit) {
+    report.gyro.refusal = "scale: needs the accelerometer or the magnetometer fitted";
+  }
   if (report.accel.fit) {
     auto carried = CarriedGravity(poses, report.accel.fit->calibration);
     std::erase_if(carried, [&](const CarriedDirection& span) { return !AllThere(samples, span); });
@@ -226,6 +231,9 @@ void FitGyroScale(std::span<const MargSample> samples, const std::vector<RestPos
     if (auto fit = FitGyro(samples, carried, settings.gyro)) {
       fit->method = "carried-field";
       report.gyro.fit = *fit;
+    } else {
+      report.gyro.refusal += (report.accel.fit ? "; by the field: " : "by the field: ");
+      report.gyro.refusal += fit.error().message;
     }
   }
   if (report.gyro.fit) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -17,11 +18,9 @@ constexpr double kNewPoseCos = 0.966;  // 15° from the pose before
 
 void LiveGuidance::Add(const sensing::MargSample& sample) {
   samples_.push_back(sample);
-  if (sensing::HasFreshMag(sample)) {
-    const Eigen::Vector3d mag = sample.mag_tesla.cast<double>();
-    mag_min_tesla_ = has_mag_ ? Eigen::Vector3d(mag_min_tesla_.cwiseMin(mag)) : mag;
-    mag_max_tesla_ = has_mag_ ? Eigen::Vector3d(mag_max_tesla_.cwiseMax(mag)) : mag;
-    has_mag_ = true;
+  constexpr std::size_t kEvery = 5;
+  if (samples_.size() % kEvery == 0 && sensing::HasFreshMag(sample)) {
+    mag_tesla_.emplace_back(sample.mag_tesla.cast<double>());
   }
   const Duration length = sample.measured_at - samples_[block_begin_].measured_at;
   if (length >= DurationFromSeconds(kBlock_s)) {
@@ -41,20 +40,34 @@ void LiveGuidance::EndBlock() {
     last_up_ = up;
     gravity_.Add(up);
   }
-  if (has_mag_ && samples_.back().mag_tesla.allFinite()) {
-    // About the middle of what was seen: the offset is not known yet.
-    for (const sensing::MargSample& sample : block) {
-      if (sensing::HasFreshMag(sample)) {
-        field_.Add(sample.mag_tesla.cast<double>() - (mag_min_tesla_ + mag_max_tesla_) / 2.0);
-      }
-    }
-  }
   block_begin_ = samples_.size() - 1;
+}
+
+sensing::SphereCoverage LiveGuidance::FieldCoverage() const {
+  constexpr double kLeastHalf_tesla = 10e-6;  // the weakest field on earth is 22 µT
+  sensing::SphereCoverage coverage;
+  if (mag_tesla_.empty()) {
+    return coverage;
+  }
+  Eigen::Vector3d low = mag_tesla_.front();
+  Eigen::Vector3d high = low;
+  for (const Eigen::Vector3d& mag : mag_tesla_) {
+    low = low.cwiseMin(mag);
+    high = high.cwiseMax(mag);
+  }
+  const Eigen::Vector3d half = (high - low) / 2.0;
+  if (half.minCoeff() < std::max(kLeastHalf_tesla, 0.5 * half.maxCoeff())) {
+    return coverage;
+  }
+  for (const Eigen::Vector3d& mag : mag_tesla_) {
+    coverage.Add(mag - (low + high) / 2.0);
+  }
+  return coverage;
 }
 
 bool LiveGuidance::complete() const {
   return poses_ >= kEnoughPoses && gravity_.share() >= kEnoughCoverage &&
-         (!has_mag_ || field_.share() >= kEnoughCoverage);
+         (mag_tesla_.empty() || FieldCoverage().share() >= kEnoughCoverage);
 }
 
 std::string LiveGuidance::Line() const {
@@ -67,7 +80,8 @@ std::string LiveGuidance::Line() const {
     next = next.empty() && !faces[face] ? kFaces[face] : next;
   }
   line += fmt::format(", gravity {:.0f} %", 100.0 * gravity_.share());
-  line += has_mag_ ? fmt::format(", field {:.0f} %", 100.0 * field_.share()) : ", no magnetometer";
+  line += mag_tesla_.empty() ? std::string(", no magnetometer")
+                             : fmt::format(", field {:.0f} %", 100.0 * FieldCoverage().share());
   if (complete()) {
     return line + "; enough: Ctrl-C ends";
   }

@@ -28,17 +28,17 @@ class LiveGuidance {
 
  private:
   void EndBlock();
+  // Of the field's directions about the middle of its box; nothing while the box is flat or small,
+  // for then the middle is not known.
+  [[nodiscard]] sensing::SphereCoverage FieldCoverage() const;
 
   std::vector<sensing::MargSample> samples_;
   std::size_t block_begin_ = 0;
   bool still_ = false;
-  bool has_mag_ = false;
   Eigen::Vector3d last_up_ = Eigen::Vector3d::Zero();
   std::size_t poses_ = 0;
   sensing::SphereCoverage gravity_;
-  sensing::SphereCoverage field_;
-  Eigen::Vector3d mag_min_tesla_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d mag_max_tesla_ = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> mag_tesla_;  // some of the readings
 };
 
 }  // namespace limbcast::tool

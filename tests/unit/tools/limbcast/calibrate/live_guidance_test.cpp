@@ -47,7 +47,9 @@ TEST(LiveGuidanceTest, GuidedPosesAreEnough) {
 TEST(LiveGuidanceTest, StayingInOnePoseIsOnePose) {
   scene::Handling handling = scene::RandomPoses(1, 3);
   handling.rest_s = 20.0;
-  EXPECT_EQ(After(scene::Read(handling, scene::FactoryErrors(), 3)).poses(), 1U);
+  const LiveGuidance guidance = After(scene::Read(handling, scene::FactoryErrors(), 3));
+  EXPECT_EQ(guidance.poses(), 1U);
+  EXPECT_THAT(guidance.Line(), HasSubstr("field 0 %")) << "noise is no coverage";
 }
 
 }  // namespace
