@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/sensing/known_rotation.hpp"
 #include "common/sensing/null_and_scale.hpp"
 #include "common/sensing/sphere_coverage.hpp"
 #include "common/sensing/triad_alignment.hpp"
@@ -86,8 +87,23 @@ TriadFit PaperFit(const TriadCalibration& triad, const Vectors& readings, double
           .points = readings.size()};
 }
 
-void CalibrateByPapers(const std::vector<RestPose>& poses, const CalibrationSettings& settings,
-                       SensorReport& report) {
+// Eq. (31) on top of the null at rest.
+void ScaleGyroByTurns(std::span<const MargSample> samples, const std::vector<RestPose>& poses,
+                      double known_rad, SensorReport& report) {
+  const auto scales = GyroScalesFromTurns(samples, poses, known_rad);
+  if (!scales) {
+    report.gyro.refusal = scales.error().message;
+    return;
+  }
+  TriadFit fit = *report.calibration.gyro;
+  fit.calibration.matrix = scales->asDiagonal();
+  fit.method = "known-rotation";
+  fit.coverage = 1.0;
+  report.gyro.fit = fit;
+}
+
+void CalibrateByPapers(std::span<const MargSample> samples, const std::vector<RestPose>& poses,
+                       const CalibrationSettings& settings, SensorReport& report) {
   const auto accel = SixPositionAccel(report.accel.readings, settings.gravity_m_s2);
   if (accel) {
     report.accel.fit =
@@ -101,8 +117,13 @@ void CalibrateByPapers(const std::vector<RestPose>& poses, const CalibrationSett
   } else {
     report.mag.refusal = mag.error().message;
   }
-  report.gyro.refusal = poses.empty() ? "no time at rest: lay the sensor down for some seconds"
-                                      : "scale factors need a known rotation";
+  if (poses.empty()) {
+    report.gyro.refusal = "no time at rest: lay the sensor down for some seconds";
+  } else if (settings.known_rotation_rad > 0.0) {
+    ScaleGyroByTurns(samples, poses, settings.known_rotation_rad, report);
+  } else {
+    report.gyro.refusal = "scale factors need a known rotation";
+  }
 }
 
 void FitAccel(std::span<const MargSample> samples, const CalibrationSettings& settings,
@@ -292,7 +313,7 @@ SensorReport CalibrateSensor(std::span<const MargSample> samples,
     report.calibration.gyro = NullAtRest(poses);
   }
   if (settings.method == CalibrationMethod::kPapers) {
-    CalibrateByPapers(poses, settings, report);
+    CalibrateByPapers(samples, poses, settings, report);
   } else {
     FitAccel(samples, settings, report);
     FitMag(poses, settings, report);

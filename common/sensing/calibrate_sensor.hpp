@@ -24,6 +24,9 @@ enum class CalibrationMethod : std::uint8_t {
 /// What CalibrateSensor is told beside the samples.
 struct CalibrationSettings {
   CalibrationMethod method = CalibrationMethod::kFits;
+  /// Papers only: size of turns about one axis each, for the gyro's scale; 0 = none. Range: [0,
+  /// 63].
+  double known_rotation_rad = 0.0;
   /// Local gravity. Range: [9.7, 9.9].
   double gravity_m_s2 = 9.80665;
   /// Local field, for the magnetometer's overall scale; 0 = not known, kept. Range: [0, 1e-4].

@@ -33,6 +33,7 @@ struct CalibrateOptions {
   std::string method = "fits";
   double gravity_m_s2 = 9.80665;
   double field_ut = 0.0;
+  double known_rotation_deg = 0.0;
   double declination_deg = 0.0;
   double seconds = 0.0;  // 0 = until Ctrl-C or enough
   bool level = false;
@@ -99,6 +100,7 @@ int CalibrateSensors(const service::ServiceCommandLine& line, const CalibrateOpt
   settings.gravity_m_s2 = options.gravity_m_s2;
   settings.field_tesla = options.field_ut * kMicroTesla;
   settings.level_positions = options.level;
+  settings.known_rotation_rad = units::RadFromDeg(options.known_rotation_deg);
   const runtime::SystemClock clock;
   std::vector<NamedReport> reports;
   std::size_t refused = 0;
@@ -182,6 +184,10 @@ SubCommand AddCalibrateCommand(service::ServiceCommandLine& line) {
       ->type_name("FILE");
   sensor->add_option("--method", options->method, "fits (default), or the papers' procedures")
       ->check(CLI::IsMember({"fits", "papers"}));
+  sensor
+      ->add_option("--known-rotation-deg", options->known_rotation_deg,
+                   "Papers' gyro scale: size of the turns about one axis each, from rest to rest")
+      ->check(CLI::Range(10.0, 3600.0));
   sensor->add_option("--gravity", options->gravity_m_s2, "Local gravity, m/s²")
       ->check(CLI::Range(9.7, 9.9));
   sensor->add_flag("--level", options->level,

@@ -54,11 +54,11 @@ std::string CoverageMap(const Vectors& corrected) {
   std::string html;
   for (const bool upper : {true, false}) {
     html += fmt::format(
-        "<svg viewBox='0 0 200 200'><circle cx='100' cy='100' r='{}' fill='none' "
-        "stroke='#999'/><text x='4' y='12'>{}z side; x right, y up</text>",
+        "<svg viewBox='0 -12 200 212'><circle cx='100' cy='100' r='{}' fill='none' "
+        "stroke='#999'/><text x='4' y='-2'>{}z side; x right, y up</text>",
         kDisc, upper ? '+' : '-');
     for (std::size_t i = 0; i < probes.size(); ++i) {
-      html += OnDisc(probes[i], upper, 5.0, covered[i] ? "#cfe8d5" : "#f3c4b8");
+      html += OnDisc(probes[i], upper, 6.5, covered[i] ? "#cfe8d5" : "#f3c4b8");
     }
     for (const Eigen::Vector3d& y : corrected) {
       html += OnDisc(y.normalized(), upper, 1.2, "#0b6e99");
@@ -74,7 +74,7 @@ std::string Views(const Vectors& raw, const Vectors& corrected, double norm) {
   const double scale = 0.32 * kView / norm;
   std::string html;
   for (const auto& [a, b] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
-    html += fmt::format("<svg viewBox='0 0 200 200'><text x='4' y='12'>{} right, {} up</text>",
+    html += fmt::format("<svg viewBox='0 -12 200 212'><text x='4' y='-2'>{} right, {} up</text>",
                         kAxes[a], kAxes[b]);
     for (const Eigen::Vector3d& r : raw) {
       html += Dot(100.0 + scale * r(a), 100.0 - scale * r(b), 1.0, "#c4572e");

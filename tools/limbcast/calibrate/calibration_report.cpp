@@ -12,7 +12,7 @@ namespace {
 constexpr double kMicro = 1e6;
 
 std::string Residual(const sensing::TriadFit& fit, bool is_gyro) {
-  if (fit.method == "null-at-rest") {
+  if (fit.method == "null-at-rest" || fit.method == "known-rotation") {
     return "-";
   }
   return is_gyro ? fmt::format("{:.2f} -> {:.2f} deg", units::DegFromRad(fit.residual_before),
@@ -25,12 +25,11 @@ std::string Row(const char* name, const sensing::ChannelReport& channel) {
   std::string row;
   if (channel.fit) {
     const sensing::TriadFit& fit = *channel.fit;
-    row =
-        fmt::format("  {:<6} {:<18} {:>6} {:>8.0f} % {:>21} {:>10} {:>8}\n", name, fit.method,
-                    fit.points, 100.0 * fit.coverage, Residual(fit, *name == 'g'),
-                    fit.method == "null-at-rest" ? std::string("-")
-                                                 : fmt::format("{:.3f} %", 100.0 * fit.sigma_scale),
-                    sensing::ToText(sensing::GradeOf(fit)));
+    row = fmt::format("  {:<6} {:<18} {:>6} {:>8.0f} % {:>21} {:>10} {:>8}\n", name, fit.method,
+                      fit.points, 100.0 * fit.coverage, Residual(fit, *name == 'g'),
+                      fit.sigma_scale >= 1.0 ? std::string("-")
+                                             : fmt::format("{:.3f} %", 100.0 * fit.sigma_scale),
+                      sensing::ToText(sensing::GradeOf(fit)));
   } else {
     row = fmt::format("  {:<6} refused\n", name);
   }
