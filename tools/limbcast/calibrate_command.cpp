@@ -39,20 +39,33 @@ struct CalibrateOptions {
   bool level = false;
 };
 
-// The samples of a recording, or what comes over the bus while the person turns the sensor.
-Result<std::vector<SensorSamples>> Gather(const service::ServiceCommandLine& line,
-                                          const CalibrateOptions& options, bool guided) {
-  if (!options.recording.empty()) {
-    const auto recording = gateway::ReadRecording(options.recording);
-    if (!recording) {
-      return recording.error();
-    }
-    std::vector<sensing::SensorInfo> sensors;
-    for (const gateway::RecordedSensor& sensor : recording->sensors) {
-      sensors.push_back(sensor.info);
-    }
-    return SamplesBySensor(sensors, recording->marg, options.sensor);
+Result<std::vector<SensorSamples>> FromRecording(const CalibrateOptions& options) {
+  const auto recording = gateway::ReadRecording(options.recording);
+  if (!recording) {
+    return recording.error();
   }
+  std::vector<sensing::SensorInfo> sensors;
+  sensors.reserve(recording->sensors.size());
+  for (const gateway::RecordedSensor& sensor : recording->sensors) {
+    sensors.push_back(sensor.info);
+  }
+  auto sorted = SamplesBySensor(sensors, recording->marg, options.sensor);
+  if (!sorted) {
+    return sorted;
+  }
+  for (const gateway::RecordedSensor& recorded : recording->sensors) {
+    for (SensorSamples& sensor : *sorted) {
+      if (recorded.segment && sensor.info.sensor_uid == recorded.info.sensor_uid) {
+        sensor.limb = std::string(body::ToString(*recorded.segment));
+      }
+    }
+  }
+  return sorted;
+}
+
+// What comes over the bus while the person turns the sensor (guided), or stands still.
+Result<std::vector<SensorSamples>> FromGateway(const service::ServiceCommandLine& line,
+                                               const CalibrateOptions& options, bool guided) {
   const auto file = line.LoadConfig();
   if (!file) {
     return file.error();
@@ -87,6 +100,11 @@ Result<std::vector<SensorSamples>> Gather(const service::ServiceCommandLine& lin
   }
   fmt::print(stderr, "{}", terminal && guided ? "\n" : "");
   return (*collector)->Take(guided);
+}
+
+Result<std::vector<SensorSamples>> Gather(const service::ServiceCommandLine& line,
+                                          const CalibrateOptions& options, bool guided) {
+  return options.recording.empty() ? FromGateway(line, options, guided) : FromRecording(options);
 }
 
 int CalibrateSensors(const service::ServiceCommandLine& line, const CalibrateOptions& options) {

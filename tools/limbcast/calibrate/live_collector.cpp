@@ -23,13 +23,28 @@ Result<std::unique_ptr<LiveCollector>> LiveCollector::Make(bus::Bus& bus, std::s
              }
            },
        .on_disposed = {}});
-  if (!info || !marg || !frame) {
-    return !info ? info.error() : !marg ? marg.error() : frame.error();
+  auto roster = bus.MakeReader<roster::RosterEntry>(
+      {.on_sample = [&self](const roster::RosterEntry& value,
+                            const bus::SampleInfo&) { self.OnRoster(value); },
+       .on_disposed = {}});
+  if (!info || !marg) {
+    return !info ? info.error() : marg.error();
   }
+  if (!frame || !roster) {
+    return !frame ? frame.error() : roster.error();
+  }
+  made->roster_reader_ = std::move(*roster);
   made->info_reader_ = std::move(*info);
   made->marg_reader_ = std::move(*marg);
   made->frame_reader_ = std::move(*frame);
   return made;
+}
+
+void LiveCollector::OnRoster(const roster::RosterEntry& entry) {
+  const std::lock_guard lock(mutex_);
+  for (const roster::SensorAssignment& assignment : entry.sensors) {
+    limbs_[assignment.sensor_uid.value] = std::string(body::ToString(assignment.segment));
+  }
 }
 
 void LiveCollector::OnInfo(const sensing::SensorInfo& info) {
@@ -80,6 +95,7 @@ bool LiveCollector::complete() const {
 Result<std::vector<SensorSamples>> LiveCollector::Take(bool need_raw) const {
   const std::lock_guard lock(mutex_);
   std::vector<sensing::SensorInfo> sensors;
+  sensors.reserve(infos_.size());
   std::vector<sensing::MargSample> samples;
   for (const auto& [uid, info] : infos_) {
     sensors.push_back(info);
@@ -91,7 +107,14 @@ Result<std::vector<SensorSamples>> LiveCollector::Take(bool need_raw) const {
     return Error{ErrorCode::kNotFound, "no gateway has told of a sensor (sensor_info)"};
   }
   auto taken = SamplesBySensor(sensors, samples, sensor_);
-  for (const SensorSamples& sensor : taken ? *taken : std::vector<SensorSamples>{}) {
+  if (!taken) {
+    return taken;
+  }
+  for (SensorSamples& sensor : *taken) {
+    const auto limb = limbs_.find(sensor.info.sensor_uid.value);
+    sensor.limb = limb != limbs_.end() ? limb->second : std::string();
+  }
+  for (const SensorSamples& sensor : *taken) {
     if (need_raw && !sensor.info.calibration.empty()) {
       return Error{ErrorCode::kInvalidArgument,
                    sensor.Name() + " is corrected already (" + sensor.info.calibration +

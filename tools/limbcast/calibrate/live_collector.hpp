@@ -8,6 +8,7 @@
 
 #include "common/base/result.hpp"
 #include "common/bus/bus.hpp"
+#include "common/roster/roster.hpp"
 #include "common/sensing/marg_frame.hpp"
 #include "common/sensing/marg_sample.hpp"
 #include "common/sensing/sensor_info.hpp"
@@ -16,7 +17,8 @@
 
 namespace limbcast::tool {
 
-/// Collects what a gateway publishes of its sensors (marg, marg_frame, sensor_info). Thread-safe.
+/// Collects what a gateway publishes of its sensors (marg, marg_frame, sensor_info, roster).
+/// Thread-safe.
 class LiveCollector {
  public:
   /// `sensor`: label or serial of the only one to collect, "" for all. `bus` outlives it.
@@ -34,6 +36,7 @@ class LiveCollector {
  private:
   explicit LiveCollector(std::string sensor) : sensor_(std::move(sensor)) {}
   void OnSample(const sensing::MargSample& sample);
+  void OnRoster(const roster::RosterEntry& entry);
   void OnInfo(const sensing::SensorInfo& info);
   [[nodiscard]] const LiveGuidance* Guided() const;
 
@@ -41,8 +44,10 @@ class LiveCollector {
   mutable std::mutex mutex_;
   std::map<std::uint64_t, sensing::SensorInfo> infos_;
   std::map<std::uint64_t, LiveGuidance> streams_;
+  std::map<std::uint64_t, std::string> limbs_;
   // Last: their threads call into the rest.
   std::unique_ptr<bus::Reader<sensing::SensorInfo>> info_reader_;
+  std::unique_ptr<bus::Reader<roster::RosterEntry>> roster_reader_;
   std::unique_ptr<bus::Reader<sensing::MargSample>> marg_reader_;
   std::unique_ptr<bus::Reader<sensing::MargFrame>> frame_reader_;
 };

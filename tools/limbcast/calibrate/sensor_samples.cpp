@@ -6,10 +6,9 @@
 namespace limbcast::tool {
 
 std::string SensorSamples::Name() const {
-  if (info.label.empty() || info.label == info.serial) {
-    return info.serial;
-  }
-  return info.label + " (" + info.serial + ")";
+  const bool has_label = !info.label.empty() && info.label != info.serial;
+  const std::string name = has_label ? info.label + " (" + info.serial + ")" : info.serial;
+  return limb.empty() || limb == info.label ? name : name + " on " + limb;
 }
 
 Result<std::vector<SensorSamples>> SamplesBySensor(std::span<const sensing::SensorInfo> sensors,
@@ -22,7 +21,7 @@ Result<std::vector<SensorSamples>> SamplesBySensor(std::span<const sensing::Sens
     names += (names.empty() ? "" : ", ") + (info.label.empty() ? info.serial : info.label);
     if (chosen.empty() || info.label == chosen || info.serial == chosen) {
       index[info.sensor_uid] = found.size();
-      found.push_back({.info = info, .samples = {}});
+      found.push_back({.info = info, .samples = {}, .limb = {}});
     }
   }
   if (found.empty()) {

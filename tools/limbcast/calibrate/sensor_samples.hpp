@@ -14,8 +14,9 @@ namespace limbcast::tool {
 struct SensorSamples {
   sensing::SensorInfo info;
   std::vector<sensing::MargSample> samples;
+  std::string limb;  ///< name of the segment that wears it; "" = not known
 
-  /// The label, with the serial behind it where it is another.
+  /// The label, with the serial behind it where it is another, and who wears it.
   [[nodiscard]] std::string Name() const;
 };
 

@@ -32,7 +32,8 @@ TEST(CalibrationReportTest, TheTextSaysMethodCoverageAndGrade) {
 TEST(CalibrationReportTest, ARefusalSaysWhatIsMissing) {
   const std::string text =
       CalibrationText({.name = "a", .report = sensing::CalibrateSensor({}, {})});
-  EXPECT_THAT(text, HasSubstr("accel  refused\n         at rest: different positions must be at least 12"));
+  EXPECT_THAT(
+      text, HasSubstr("accel  refused\n         at rest: different positions must be at least 12"));
   EXPECT_THAT(text, HasSubstr("no time at rest"));
 }
 

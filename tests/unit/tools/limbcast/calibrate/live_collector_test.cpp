@@ -14,6 +14,11 @@ using ::testing::HasSubstr;
 class LiveCollectorTest : public ::testing::Test {
  protected:
   void Publish(const std::string& calibration) {
+    roster::RosterEntry person;
+    person.body_id = BodyId{1};
+    person.sensors = {{SensorUid{1}, body::Segment::kHead}};
+    ASSERT_TRUE(roster_writer_->Write(person).ok());
+    roster_writer_->Flush();
     sensing::SensorInfo info;
     info.sensor_uid = SensorUid{1};
     info.serial = "00A";
@@ -32,6 +37,8 @@ class LiveCollectorTest : public ::testing::Test {
   std::unique_ptr<bus::Bus> bus_ = bus::inproc::MakeBus(bus::inproc::MakeHub());
   std::unique_ptr<bus::Writer<sensing::SensorInfo>> info_writer_ =
       *bus_->MakeWriter<sensing::SensorInfo>();
+  std::unique_ptr<bus::Writer<roster::RosterEntry>> roster_writer_ =
+      *bus_->MakeWriter<roster::RosterEntry>();
   std::unique_ptr<bus::Writer<sensing::MargSample>> marg_writer_ =
       *bus_->MakeWriter<sensing::MargSample>();
 };
@@ -47,6 +54,7 @@ TEST_F(LiveCollectorTest, CollectsWhatAGatewaySends) {
   const auto taken = (*collector)->Take(true);
   ASSERT_TRUE(taken.ok()) << taken.error().message;
   EXPECT_EQ(taken->front().samples.size(), samples_.size());
+  EXPECT_EQ(taken->front().Name(), "pelvis (00A) on head");
 }
 
 TEST_F(LiveCollectorTest, CorrectedReadingsAreRefusedWhereRawOnesAreNeeded) {
@@ -54,7 +62,7 @@ TEST_F(LiveCollectorTest, CorrectedReadingsAreRefusedWhereRawOnesAreNeeded) {
   ASSERT_TRUE(collector.ok());
   Publish("accel good");
   EXPECT_EQ((*collector)->Take(true).error().message,
-            "pelvis (00A) is corrected already (accel good): start the gateway with "
+            "pelvis (00A) on head is corrected already (accel good): start the gateway with "
             "gateway.calibration_folder=\"\"");
   EXPECT_TRUE((*collector)->Take(false).ok());
 }

@@ -33,6 +33,13 @@ TEST(SensorSamplesTest, SortsBySensorAndTimeWithoutProbesAndDoubles) {
   EXPECT_EQ((*sorted)[1].Name(), "00B");
 }
 
+TEST(SensorSamplesTest, TheLimbIsNamedWhereItIsKnown) {
+  SensorSamples sensor{.info = kSensors[1], .samples = {}, .limb = "head"};
+  EXPECT_EQ(sensor.Name(), "00B on head");
+  sensor = {.info = kSensors[0], .samples = {}, .limb = "pelvis"};
+  EXPECT_EQ(sensor.Name(), "pelvis (00A)") << "the label says it";
+}
+
 TEST(SensorSamplesTest, ASensorIsChosenByLabelOrSerial) {
   const std::vector<sensing::MargSample> samples = {At(1, 1), At(2, 1)};
   EXPECT_EQ(SamplesBySensor(kSensors, samples, "pelvis")->front().info.serial, "00A");
