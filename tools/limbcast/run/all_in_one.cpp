@@ -80,13 +80,13 @@ Result<std::unique_ptr<AllInOne>> AllInOne::Make(const AllInOneConfig& config, c
 }
 
 Status AllInOne::Start() {
-  if (const Status started = posture_->Start(); !started) {
+  if (Status started = posture_->Start(); !started) {
     return started;
   }
-  if (const Status started = fusion_->Start(); !started) {
+  if (Status started = fusion_->Start(); !started) {
     return started;
   }
-  if (const Status started = gateway_->Start(); !started) {
+  if (Status started = gateway_->Start(); !started) {
     return started;
   }
   posture_health_->Start();
