@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/base/time.hpp"
+
+namespace limbcast::sensing {
+
+/// What the source does while a magnetometer is read.
+struct CoilDrive {
+  int coil = -1;           ///< 0, 1, 2: this coil is on; −1: none
+  double current_a = 0.0;  ///< signed, of the plateau
+  /// The current has settled: neither within the settling time after an edge nor in a slot that a
+  /// source nearby was granted. False: the magnetometer's reading means nothing.
+  bool settled = true;
+};
+
+/// One tick of a sensor and of the source that it is tracked from, for filters that use every
+/// sample (design/position.md section 10). Each in its own axes.
+struct CoilFrame {
+  Time measured_at{};
+  Eigen::Vector3d gyro_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accel_m_s2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mag_tesla = Eigen::Vector3d::Zero();
+  bool mag_valid = true;            ///< false: none, or clipped
+  bool inertial_saturated = false;  ///< one of the inertial readings, here or at the source, was
+  bool emitter_inertial = true;     ///< false: a fixed source; the two below mean nothing
+  Eigen::Vector3d emitter_gyro_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d emitter_accel_m_s2 = Eigen::Vector3d::Zero();
+  CoilDrive drive;
+};
+
+}  // namespace limbcast::sensing

@@ -1,0 +1,101 @@
+#include "common/simulation/coil_stream.hpp"
+
+#include <cmath>
+
+#include "common/math/rotation.hpp"
+
+namespace limbcast::simulation {
+namespace {
+
+// Notation: E earth, S sensor, M emitter.
+
+Eigen::Vector3d FieldOf(const sensing::CoilSource& source, const CoilCurrent& current,
+                        const RigidMotion& emitter, const Eigen::Vector3d& p_earth_m) {
+  if (current.coil < 0 || current.current_a == 0.0) {
+    return Eigen::Vector3d::Zero();
+  }
+  const Eigen::Vector3d p_M =
+      emitter.R_earth_local.transpose() * (p_earth_m - emitter.p_earth_local_m);
+  return emitter.R_earth_local *
+         sensing::CoilField(source, current.coil, current.current_a, p_M).field_tesla;
+}
+
+}  // namespace
+
+MargErrors CoilSensorErrors(double mag_noise_tesla) {
+  MargErrors errors;
+  errors.gyro = {.noise_rthz = 8.7e-4,
+                 .bias = 5e-3,
+                 .bias_walk_rts = 3e-5,
+                 .scale = 2e-3,
+                 .misalignment = 2e-3,
+                 .range = 21.0,
+                 .resolution = 6.4e-4};
+  errors.accel = {.noise_rthz = 2e-3,
+                  .bias = 0.03,
+                  .bias_walk_rts = 2e-4,
+                  .scale = 2e-3,
+                  .misalignment = 2e-3,
+                  .range = 100.0,
+                  .resolution = 3e-3};
+  errors.mag = {.noise = mag_noise_tesla,
+                .scale = 1e-3,
+                .misalignment = 1e-3,
+                .range = 150e-6,
+                .resolution = 5e-9};
+  return errors;
+}
+
+std::vector<CoilTick> SimulateCoil(const CoilStreamConfig& config, double duration_s,
+                                   std::uint64_t seed) {
+  MargModel sensor_model(config.errors, config.rate_hz, Random(seed, "sensor"));
+  MargModel emitter_model(config.errors, config.rate_hz, Random(seed, "emitter"));
+  const Eigen::Vector3d p_begin_m = config.sensor(0.0).p_earth_local_m;
+  std::vector<CoilTick> ticks;
+  const auto count = static_cast<std::int64_t>(duration_s * config.rate_hz);
+  ticks.reserve(static_cast<std::size_t>(count));
+  for (std::int64_t k = 0; k < count; ++k) {
+    const double t_s = static_cast<double>(k) / config.rate_hz;
+    const RigidMotion sensor = config.sensor(t_s);
+    const RigidMotion emitter = config.emitter(t_s);
+    IdealMarg ideal = MakeIdealMarg(sensor, {}, config.world);
+    const Eigen::Vector3d p_m = sensor.p_earth_local_m;
+    Eigen::Vector3d added_E = config.gradient_tesla_m * (p_m - p_begin_m);
+    added_E += FieldOf(config.source, TrueCurrent(config.pulses, t_s), emitter, p_m);
+    CoilTick tick;
+    tick.frame.drive = StatedDrive(config.pulses, t_s);
+    for (const ForeignSource& other : config.foreign) {
+      added_E += FieldOf(config.source, TrueCurrent(other.pulses, t_s), other.motion(t_s), p_m);
+      const sensing::CoilDrive drive = StatedDrive(other.pulses, t_s);
+      if (other.masked && (drive.coil >= 0 || !drive.settled)) {
+        tick.frame.drive.settled = false;
+      }
+    }
+    ideal.mag_tesla += sensor.R_earth_local.transpose() * added_E;
+    const IdealMarg emitter_ideal = MakeIdealMarg(emitter, {}, config.world);
+
+    sensing::MargSample read;
+    sensor_model.Read(ideal, read);
+    sensing::MargSample emitter_read;
+    emitter_model.Read(emitter_ideal, emitter_read);
+    constexpr std::uint32_t kInertialSaturated = sensing::kGyroSaturated | sensing::kAccelSaturated;
+    tick.frame.measured_at = TimeFromNanoseconds(0) + DurationFromSeconds(t_s);
+    tick.frame.gyro_rad_s = read.gyro_rad_s.cast<double>();
+    tick.frame.accel_m_s2 = read.accel_m_s2.cast<double>();
+    tick.frame.mag_tesla = read.mag_tesla.cast<double>();
+    tick.frame.mag_valid = !read.Has(sensing::kMagSaturated);
+    tick.frame.emitter_inertial = config.emitter_inertial;
+    tick.frame.emitter_gyro_rad_s = emitter_read.gyro_rad_s.cast<double>();
+    tick.frame.emitter_accel_m_s2 = emitter_read.accel_m_s2.cast<double>();
+    tick.frame.inertial_saturated =
+        ((read.flags | (config.emitter_inertial ? emitter_read.flags : 0U)) & kInertialSaturated) !=
+        0U;
+    tick.p_emitter_sensor_m = emitter.R_earth_local.transpose() * (p_m - emitter.p_earth_local_m);
+    tick.q_sensor_emitter =
+        math::QuaternionFromMatrix(sensor.R_earth_local.transpose() * emitter.R_earth_local);
+    ticks.push_back(tick);
+  }
+  return ticks;
+}
+
+}  // namespace limbcast::simulation

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "common/sensing/coil_field.hpp"
+#include "common/sensing/coil_frame.hpp"
+#include "common/simulation/coil_pulses.hpp"
+#include "common/simulation/magnetic_world.hpp"
+#include "common/simulation/marg_model.hpp"
+#include "common/simulation/rigid_motion.hpp"
+
+namespace limbcast::simulation {
+
+using MotionFunction = std::function<RigidMotion(double t_s)>;
+
+/// Another person's source, whose pulses this sensor feels.
+struct ForeignSource {
+  MotionFunction motion;
+  CoilPulseConfig pulses;
+  bool masked = true;  ///< its slots are known: samples in them are marked as useless
+};
+
+/// A source of coils, a sensor, and the world they are in.
+struct CoilStreamConfig {
+  CoilPulseConfig pulses;
+  sensing::CoilSource source;
+  MotionFunction sensor;         ///< the sensor's own axes and place
+  MotionFunction emitter;        ///< the axes and centre of the coils
+  bool emitter_inertial = true;  ///< false: a fixed source without inertial unit
+  double rate_hz = 120.0;
+  MargErrors errors;  ///< of both inertial units, drawn for each
+  MagneticWorld world;
+  /// Of the earth field, tesla/m; symmetric and traceless where there is no iron inside.
+  Eigen::Matrix3d gradient_tesla_m = Eigen::Matrix3d::Zero();
+  std::vector<ForeignSource> foreign;
+};
+
+/// A frame and the truth of its instant.
+struct CoilTick {
+  sensing::CoilFrame frame;
+  Eigen::Vector3d p_emitter_sensor_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond q_sensor_emitter = Eigen::Quaterniond::Identity();
+};
+
+/// MTx-like inertial units (Roetenberg 2006, section 6.3: 120 Hz, 16 bits) with this noise of one
+/// magnetometer reading; range 150 µT.
+[[nodiscard]] MargErrors CoilSensorErrors(double mag_noise_tesla);
+
+/// The whole recording. Readings are those of MargModel; the magnetometer feels
+///   B = B_world(p) + G (p − p_begin) + Σ i_c(t) R_EM B_c(R_MEᵀ (p − p_M))
+[[nodiscard]] std::vector<CoilTick> SimulateCoil(const CoilStreamConfig& config, double duration_s,
+                                                 std::uint64_t seed);
+
+}  // namespace limbcast::simulation

@@ -1,0 +1,98 @@
+#include "common/simulation/coil_stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/math/rotation.hpp"
+
+namespace limbcast::simulation {
+namespace {
+
+CoilStreamConfig StillScene() {
+  CoilStreamConfig config;
+  config.pulses = ThesisPulses();
+  config.sensor = [](double) {
+    RigidMotion motion;
+    motion.R_earth_local = math::ExpSO3({0.3, -0.4, 1.0}).toRotationMatrix();
+    motion.p_earth_local_m = {0.1, 0.2, 1.3};
+    return motion;
+  };
+  config.emitter = [](double) {
+    RigidMotion motion;
+    motion.R_earth_local = math::ExpSO3({0.0, 0.2, 0.5}).toRotationMatrix();
+    motion.p_earth_local_m = {0.0, 0.0, 1.0};
+    return motion;
+  };
+  config.errors = MakeMargErrors(NoisePreset::kIdeal);
+  return config;
+}
+
+TEST(CoilStreamTest, ThePulseIsTheFieldOfTheCoilAboveTheBackground) {
+  const CoilStreamConfig config = StillScene();
+  const auto ticks = SimulateCoil(config, 2.0, 1);
+  ASSERT_EQ(ticks.size(), 240U);
+  const Eigen::Vector3d background = ticks.front().frame.mag_tesla;
+  int on = 0;
+  for (const CoilTick& tick : ticks) {
+    if (!tick.frame.drive.settled) {
+      continue;
+    }
+    Eigen::Vector3d expected = background;
+    if (tick.frame.drive.coil >= 0) {
+      ++on;
+      expected += tick.q_sensor_emitter * sensing::CoilField(config.source, tick.frame.drive.coil,
+                                                             tick.frame.drive.current_a,
+                                                             tick.p_emitter_sensor_m)
+                                              .field_tesla;
+    }
+    EXPECT_LT((tick.frame.mag_tesla - expected).norm(), 5e-9);
+  }
+  EXPECT_GT(on, 20);
+}
+
+TEST(CoilStreamTest, IsTheSameForTheSameSeed) {
+  CoilStreamConfig config = StillScene();
+  config.errors = CoilSensorErrors(50e-9);
+  const auto a = SimulateCoil(config, 1.0, 7);
+  const auto b = SimulateCoil(config, 1.0, 7);
+  const auto c = SimulateCoil(config, 1.0, 8);
+  EXPECT_EQ(a.back().frame.mag_tesla, b.back().frame.mag_tesla);
+  EXPECT_NE(a.back().frame.mag_tesla, c.back().frame.mag_tesla);
+}
+
+TEST(CoilStreamTest, CloseToTheCoilsTheMagnetometerClips) {
+  CoilStreamConfig config = StillScene();
+  config.errors = CoilSensorErrors(50e-9);
+  config.sensor = [](double) {
+    RigidMotion motion;
+    motion.p_earth_local_m = {0.0, 0.0, 1.07};
+    return motion;
+  };
+  int clipped = 0;
+  for (const CoilTick& tick : SimulateCoil(config, 2.0, 1)) {
+    clipped += tick.frame.mag_valid ? 0 : 1;
+  }
+  EXPECT_GT(clipped, 5);
+}
+
+TEST(CoilStreamTest, SlotsOfAnotherSourceAreMasked) {
+  CoilStreamConfig config = StillScene();
+  ForeignSource other;
+  other.motion = [](double) {
+    RigidMotion motion;
+    motion.p_earth_local_m = {1.5, 0.0, 1.0};
+    return motion;
+  };
+  other.pulses = ThesisPulses();
+  other.pulses.begin_s += 0.1;
+  config.foreign.push_back(other);
+  const auto masked = SimulateCoil(config, 2.0, 1);
+  const Eigen::Vector3d background = masked.front().frame.mag_tesla;
+  for (const CoilTick& tick : masked) {
+    if (tick.frame.drive.settled && tick.frame.drive.coil < 0) {
+      EXPECT_LT((tick.frame.mag_tesla - background).norm(), 3e-9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace limbcast::simulation
