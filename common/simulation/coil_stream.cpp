@@ -60,7 +60,9 @@ std::vector<CoilTick> SimulateCoil(const CoilStreamConfig& config, double durati
     const RigidMotion emitter = config.emitter(t_s);
     IdealMarg ideal = MakeIdealMarg(sensor, {}, config.world);
     const Eigen::Vector3d p_m = sensor.p_earth_local_m;
-    Eigen::Vector3d added_E = config.gradient_tesla_m * (p_m - p_begin_m);
+    const double L = config.gradient_reach_m;
+    const Eigen::Vector3d levelled_m = L * ((p_m - p_begin_m) / L).array().sin().matrix();
+    Eigen::Vector3d added_E = config.gradient_tesla_m * levelled_m;
     added_E += FieldOf(config.source, TrueCurrent(config.pulses, t_s), emitter, p_m);
     CoilTick tick;
     tick.frame.drive = StatedDrive(config.pulses, t_s);

@@ -33,8 +33,10 @@ struct CoilStreamConfig {
   double rate_hz = 120.0;
   MargErrors errors;  ///< of both inertial units, drawn for each
   MagneticWorld world;
-  /// Of the earth field, tesla/m; symmetric and traceless where there is no iron inside.
+  /// Of the field where the sensor begins, tesla/m; symmetric and traceless. Each coordinate's
+  /// change levels off to ±gradient_reach_m, so that a long walk stays in the earth's field.
   Eigen::Matrix3d gradient_tesla_m = Eigen::Matrix3d::Zero();
+  double gradient_reach_m = 1.0;
   std::vector<ForeignSource> foreign;
 };
 
@@ -50,7 +52,7 @@ struct CoilTick {
 [[nodiscard]] MargErrors CoilSensorErrors(double mag_noise_tesla);
 
 /// The whole recording. Readings are those of MargModel; the magnetometer feels
-///   B = B_world(p) + G (p − p_begin) + Σ i_c(t) R_EM B_c(R_MEᵀ (p − p_M))
+///   B = B_world(p) + G L sin((p − p_begin)/L) + Σ i_c(t) R_EM B_c(R_MEᵀ (p − p_M))
 [[nodiscard]] std::vector<CoilTick> SimulateCoil(const CoilStreamConfig& config, double duration_s,
                                                  std::uint64_t seed);
 

@@ -17,6 +17,7 @@
 #include "tools/limbcast/evaluate/orientation_report.hpp"
 #include "tools/limbcast/evaluate/orientation_trial.hpp"
 #include "tools/limbcast/evaluate/progress_bar.hpp"
+#include "tools/limbcast/evaluate_coil_command.hpp"
 #include "tools/limbcast/evaluate_gaps_command.hpp"
 #include "tools/limbcast/evaluate_published_command.hpp"
 
@@ -216,7 +217,11 @@ SubCommand AddEvaluateCommand(service::ServiceCommandLine& line) {
   app->add_option("--json", options->json, "File for the figures");
   const SubCommand published = AddEvaluatePublishedCommand(*evaluate);
   const SubCommand gaps = AddEvaluateGaps(*evaluate);
-  return {.app = evaluate, .run = [options, published, gaps] {
+  const SubCommand coil = AddEvaluateCoil(*evaluate);
+  return {.app = evaluate, .run = [options, published, gaps, coil] {
+            if (coil.app->parsed()) {
+              return coil.run();
+            }
             if (published.app->parsed()) {
               return published.run();
             }

@@ -143,7 +143,8 @@ void SetCovariance(const Problem& problem, const CoilStart& pose, CoilPose& resu
   const Normal normal = Linearise(problem, pose);
   result.cost = normal.cost;
   result.cov_noise = normal.A.ldlt().solve(Matrix6::Identity());
-  const Eigen::Matrix<double, 6, 3> J_v = -result.cov_noise * normal.velocity;
+  result.by_velocity = -result.cov_noise * normal.velocity;
+  const Eigen::Matrix<double, 6, 3>& J_v = result.by_velocity;
   result.cov = result.cov_noise + problem.config.var_velocity_m2_s2 * J_v * J_v.transpose();
   const double floor_p = problem.config.floor_sigma_m;
   const double floor_r = problem.config.floor_sigma_rad;

@@ -41,6 +41,8 @@ struct CoilPose {
   Eigen::Matrix<double, 6, 6> cov = Eigen::Matrix<double, 6, 6>::Zero();
   /// The same without velocity error and floor: the Cramér–Rao bound.
   Eigen::Matrix<double, 6, 6> cov_noise = Eigen::Matrix<double, 6, 6>::Zero();
+  /// J_v: what an error of the velocity used in dp (emitter axes) does to the pose.
+  Eigen::Matrix<double, 6, 3> by_velocity = Eigen::Matrix<double, 6, 3>::Zero();
   double cost = 0.0;  ///< Σ |r|²/σ²
   int starts = 0;     ///< 1: the first one was good
 };

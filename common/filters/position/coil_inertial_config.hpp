@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "common/base/result.hpp"
+#include "common/filters/position/coil_pose_solver.hpp"
+#include "common/filters/position/inertial_error_model.hpp"
+#include "common/filters/position/soft_update.hpp"
+#include "common/sensing/coil_field.hpp"
+
+namespace limbcast::filters {
+
+/// Tuning of CoilInertialFilter; defaults of design/position.md sections 3, 9 and 10.
+struct CoilInertialConfig {
+  sensing::CoilSource source;
+  InertialNoise inertial;  ///< of both units
+
+  /// Noise of one magnetometer sample, one axis. Range: [1e-10, 1e-5]
+  double sigma_mag_tesla = 50e-9;
+  /// Of the coil's field: what the model does not say (winding, calibration). Range: [0, 0.2]
+  double relative_field_error = 0.01;
+  /// Random walk of the background field; about gradient times speed. Range: [0, 1e-4]
+  double walk_background_tesla_rts = 0.3e-6;
+  int iterations = 3;     ///< of the update. Range: [1, 10]
+  double max_step = 0.3;  ///< of |p|, in one update. Range: (0, 1]
+  SoftGateConfig gate;
+
+  /// Gauge pinning: the source's accelerometer shows gravity, the background stays what it was.
+  double sigma_gravity_m_s2 = 8.0;         ///< of one sample. Range: [0.1, 100]
+  double gravity_period_s = 0.1;           ///< samples between are taken as one. Range: [0, 10]
+  double sigma_background_tesla = 1.5e-6;  ///< Range: [1e-8, 1e-3]
+  double background_period_s = 0.5;        ///< Range: [0, 10]
+
+  /// Half of the emitter's axes in which the sensor is at a start (unit vector); without it nobody
+  /// can say whether it is at p or at −p.
+  std::optional<Eigen::Vector3d> half_space;
+  CoilPoseConfig pose;
+
+  // Standard deviations at a start.
+  double start_sigma_v_m_s = 0.3;  ///< at a re-acquisition
+  double rest_sigma_v_m_s = 0.03;  ///< at the first start
+  double start_sigma_tilt_rad = 0.035;
+  double start_sigma_accel_bias_m_s2 = 0.05;
+  double start_sigma_gyro_bias_rad_s = 5.2e-3;
+  double start_sigma_background_tesla = 1e-6;
+  double rest_s = 0.25;           ///< mean of so long gives the first attitudes
+  double rest_below_rad_s = 0.2;  ///< of both gyros; after 2 s anything will do
+
+  /// A pose this uncertain begins a track: its covariance goes with it.
+  double acquire_sigma_m = 0.35;
+
+  // Loss of track.
+  double lost_nis = 9.0;              ///< mean NIS/3 over three pulses
+  double lost_relative_sigma = 0.25;  ///< √(tr P_pp) over |p|
+  double lost_range_m = 1.5;
+  double longest_hold_s = 0.05;  ///< inertial readings held for so long
+};
+
+/// The first range that is not kept.
+[[nodiscard]] Status Validate(const CoilInertialConfig& config);
+
+}  // namespace limbcast::filters

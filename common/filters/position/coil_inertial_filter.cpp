@@ -1,0 +1,478 @@
+#include "common/filters/position/coil_inertial_filter.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "common/filters/position/coil_measurement.hpp"
+#include "common/math/rotation.hpp"
+
+namespace limbcast::filters {
+namespace {
+
+// Notation: E earth, S sensor, M emitter.
+
+using Index = CoilInertialIndex;
+constexpr int kBackgroundAfter = 3;  // samples that end a pulse
+const Eigen::Vector3d kGravity_E(0.0, 0.0, -9.81);
+
+InertialStates SensorStates() {
+  InertialStates s;
+  s.p = Index::kP;
+  s.v = Index::kV;
+  s.theta = Index::kSensorTheta;
+  s.accel_bias = Index::kSensorAccelBias;
+  s.gyro_bias = Index::kSensorGyroBias;
+  return s;
+}
+
+InertialStates EmitterStates() {
+  InertialStates s = SensorStates();
+  s.theta = Index::kEmitterTheta;
+  s.accel_bias = Index::kEmitterAccelBias;
+  s.gyro_bias = Index::kEmitterGyroBias;
+  return s;
+}
+
+// The attitude, with any heading, in which `accel` points up.
+Eigen::Quaterniond Levelled(const Eigen::Vector3d& accel_m_s2) {
+  return Eigen::Quaterniond::FromTwoVectors(accel_m_s2, Eigen::Vector3d::UnitZ());
+}
+
+void SetVariance(CoilCovariance& P, int first, const Eigen::Vector3d& sigma) {
+  P.middleRows<3>(first).setZero();
+  P.middleCols<3>(first).setZero();
+  P.diagonal().segment<3>(first) = sigma.cwiseAbs2();
+}
+
+void SetVariance(CoilCovariance& P, int first, double sigma) {
+  SetVariance(P, first, Eigen::Vector3d::Constant(sigma));
+}
+
+bool InertialFinite(const sensing::CoilFrame& frame) {
+  return frame.gyro_rad_s.allFinite() && frame.accel_m_s2.allFinite() &&
+         (!frame.emitter_inertial ||
+          (frame.emitter_gyro_rad_s.allFinite() && frame.emitter_accel_m_s2.allFinite()));
+}
+
+}  // namespace
+
+CoilInertialFilter::CoilInertialFilter(const CoilInertialConfig& config)
+    : config_(config), collector_(config.sigma_mag_tesla, kBackgroundAfter) {}
+
+Result<CoilInertialFilter> CoilInertialFilter::Make(const CoilInertialConfig& config) {
+  if (const Status valid = Validate(config); !valid) {
+    return valid.error();
+  }
+  return CoilInertialFilter(config);
+}
+
+CoilUpdateReport CoilInertialFilter::Update(const sensing::CoilFrame& given) {
+  CoilUpdateReport report;
+  record_count_ = 0;
+  report.phase = phase_;
+  if (last_ && given.measured_at <= last_->measured_at) {
+    report.verdict = CoilFrameVerdict::kRejectedOutOfOrder;
+    return report;
+  }
+  sensing::CoilFrame frame = given;
+  double inflation = frame.inertial_saturated ? 30.0 * 30.0 : 1.0;
+  const bool finite = InertialFinite(frame);
+  if (!finite) {
+    report.verdict = CoilFrameVerdict::kHeld;
+    if (!last_) {
+      return report;
+    }
+    frame.gyro_rad_s = last_->gyro_rad_s;
+    frame.accel_m_s2 = last_->accel_m_s2;
+    frame.emitter_gyro_rad_s = last_->emitter_gyro_rad_s;
+    frame.emitter_accel_m_s2 = last_->emitter_accel_m_s2;
+    inflation = 100.0;
+  }
+  if (phase_ == CoilPhase::kLevelling) {
+    Level(frame);
+    last_ = frame;
+    report.phase = phase_;
+    return report;
+  }
+  const double dt_s = ToSeconds(frame.measured_at - last_->measured_at);
+  Propagate(frame, dt_s, dt_s > 0.02 ? std::max(inflation, 100.0) : inflation);
+  if (dt_s > config_.longest_hold_s) {
+    P_.diagonal().segment<3>(Index::kV).array() += 1.0;
+  }
+  last_ = frame;
+  if (std::max(frame.gyro_rad_s.norm(), frame.emitter_inertial ? frame.emitter_gyro_rad_s.norm()
+                                                               : 0.0) > config_.rest_below_rad_s) {
+    at_rest_ = false;
+  }
+  if (!state_.IsFinite() || !P_.allFinite()) {
+    *this = CoilInertialFilter(config_);
+    report.lost = true;
+    report.phase = phase_;
+    return report;
+  }
+  if (phase_ == CoilPhase::kAcquiring) {
+    Acquire(frame, report);
+  } else {
+    UseSample(frame, report);
+    UseGauges(frame);
+    WatchTrack(frame, report);
+  }
+  report.phase = phase_;
+  report.disturbed = frame.measured_at < disturbed_until_;
+  return report;
+}
+
+void CoilInertialFilter::Level(const sensing::CoilFrame& frame) {
+  if (!last_) {
+    begun_at_ = frame.measured_at;
+  }
+  const bool patient = ToSeconds(frame.measured_at - begun_at_) < 2.0;
+  const double rate_rad_s = std::max(
+      frame.gyro_rad_s.norm(), frame.emitter_inertial ? frame.emitter_gyro_rad_s.norm() : 0.0);
+  if (sums_.count == 0 || (patient && rate_rad_s > config_.rest_below_rad_s)) {
+    sums_ = {};
+    rest_since_ = frame.measured_at;
+  }
+  sums_.accel += frame.accel_m_s2;
+  sums_.gyro += frame.gyro_rad_s;
+  sums_.emitter_accel += frame.emitter_accel_m_s2;
+  sums_.emitter_gyro += frame.emitter_gyro_rad_s;
+  ++sums_.count;
+  if (frame.drive.coil < 0 && frame.drive.settled && frame.mag_valid &&
+      frame.mag_tesla.allFinite()) {
+    sums_.mag += frame.mag_tesla;
+    ++sums_.mag_count;
+  }
+  if (ToSeconds(frame.measured_at - rest_since_) < config_.rest_s || sums_.mag_count < 3) {
+    return;
+  }
+  const double n = sums_.count;
+  state_ = {};
+  state_.q_earth_sensor = Levelled(sums_.accel);
+  const Eigen::Vector3d mag_E = state_.q_earth_sensor * (sums_.mag / sums_.mag_count);
+  const double north_rad = std::atan2(mag_E.x(), mag_E.y());  // turns the field to +y
+  state_.q_earth_sensor =
+      Eigen::AngleAxisd(north_rad, Eigen::Vector3d::UnitZ()) * state_.q_earth_sensor;
+  state_.q_earth_emitter =
+      frame.emitter_inertial ? Levelled(sums_.emitter_accel) : Eigen::Quaterniond::Identity();
+  if (patient) {
+    state_.sensor.gyro_bias_rad_s = sums_.gyro / n;
+    if (frame.emitter_inertial) {
+      state_.emitter.gyro_bias_rad_s = sums_.emitter_gyro / n;
+    }
+    for (Eigen::Vector3d* bias :
+         {&state_.sensor.gyro_bias_rad_s, &state_.emitter.gyro_bias_rad_s}) {
+      *bias *= std::min(1.0, 2.0 * config_.start_sigma_gyro_bias_rad_s / (bias->norm() + 1e-12));
+    }
+  }
+  state_.background_earth_tesla = state_.q_earth_sensor * (sums_.mag / sums_.mag_count);
+  background_start_tesla_ = state_.background_earth_tesla;
+  const double tilt = config_.start_sigma_tilt_rad * (patient ? 1.0 : 4.0);
+  P_.setZero();
+  SetVariance(P_, Index::kSensorTheta, tilt);
+  SetVariance(P_, Index::kEmitterTheta, tilt);
+  for (const int accel_bias : {Index::kSensorAccelBias, Index::kEmitterAccelBias}) {
+    SetVariance(P_, accel_bias, config_.start_sigma_accel_bias_m_s2);
+  }
+  for (const int gyro_bias : {Index::kSensorGyroBias, Index::kEmitterGyroBias}) {
+    SetVariance(P_, gyro_bias, config_.start_sigma_gyro_bias_rad_s);
+  }
+  if (!frame.emitter_inertial) {
+    SetVariance(P_, Index::kEmitterAccelBias, 0.0);
+    SetVariance(P_, Index::kEmitterGyroBias, 0.0);
+  }
+  SetVariance(P_, Index::kBackground, config_.start_sigma_background_tesla);
+  at_rest_ = patient;
+  phase_ = CoilPhase::kAcquiring;
+  collector_.Clear();
+}
+
+void CoilInertialFilter::Propagate(const sensing::CoilFrame& frame, double dt_s, double inflation) {
+  CoilRecord& record = records_[0];
+  record_count_ = phase_ == CoilPhase::kTracking ? 1 : 0;
+  record.chain_begins = false;
+  record.measurement.fused = false;
+  record.into = {};
+  record.into.decay.setOnes();
+  sensor_block_.Clear();
+  NavigationState sensor;
+  sensor.q_earth_sensor = state_.q_earth_sensor;
+  AdvanceInertial({last_->gyro_rad_s, last_->accel_m_s2}, {frame.gyro_rad_s, frame.accel_m_s2},
+                  dt_s, state_.sensor, kGravity_E, sensor, sensor_block_);
+  Eigen::Vector3d dp = sensor.p_earth_sensor_m;
+  Eigen::Vector3d dv = sensor.v_earth_sensor_m_s;
+  const Eigen::Vector3d a_sensor_E = dv / dt_s;
+  state_.q_earth_sensor = sensor.q_earth_sensor;
+  AddInertialTransition(sensor_block_, SensorStates(), 1.0, record.into.top);
+  Eigen::Vector3d a_emitter_E = Eigen::Vector3d::Zero();
+  if (frame.emitter_inertial) {
+    emitter_block_.Clear();
+    NavigationState emitter;
+    emitter.q_earth_sensor = state_.q_earth_emitter;
+    AdvanceInertial({last_->emitter_gyro_rad_s, last_->emitter_accel_m_s2},
+                    {frame.emitter_gyro_rad_s, frame.emitter_accel_m_s2}, dt_s, state_.emitter,
+                    kGravity_E, emitter, emitter_block_);
+    dp -= emitter.p_earth_sensor_m;
+    dv -= emitter.v_earth_sensor_m_s;
+    a_emitter_E = emitter.v_earth_sensor_m_s / dt_s;
+    state_.q_earth_emitter = emitter.q_earth_sensor;
+    AddInertialTransition(emitter_block_, EmitterStates(), -1.0, record.into.top);
+  }
+  state_.p_earth_m += dt_s * state_.v_earth_m_s + dp;
+  state_.v_earth_m_s += dv;
+
+  PropagateCovariance(record.into, P_);
+  AddProcessNoise(ProcessNoiseOf(sensor_block_, config_.inertial, a_sensor_E, inflation),
+                  SensorStates(), P_);
+  if (frame.emitter_inertial) {
+    AddProcessNoise(ProcessNoiseOf(emitter_block_, config_.inertial, a_emitter_E, inflation),
+                    EmitterStates(), P_);
+  }
+  double walk = config_.walk_background_tesla_rts;
+  if (frame.measured_at < disturbed_until_) {
+    walk *= 10.0;
+  }
+  P_.diagonal().segment<3>(Index::kBackground).array() += walk * walk * dt_s;
+}
+
+void CoilInertialFilter::Acquire(const sensing::CoilFrame& frame, CoilUpdateReport& report) {
+  const bool pulsed = collector_.Update(frame, PathNow());
+  if (at_rest_) {
+    state_.v_earth_m_s.setZero();
+  }
+  if (!pulsed) {
+    return;
+  }
+  auto burst = collector_.Burst();
+  if (!burst) {
+    return;
+  }
+  for (CoilObservation& o : *burst) {
+    // At least what dead reckoning, settling and calibration leave.
+    constexpr double kLeast = 0.01;
+    o.sigma_tesla = std::hypot(
+        o.sigma_tesla, std::max(kLeast, config_.relative_field_error) * o.field_tesla.norm());
+  }
+  CoilPoseConfig pose_config = config_.pose;
+  const double sigma_v_m_s = at_rest_ ? config_.rest_sigma_v_m_s : config_.start_sigma_v_m_s;
+  pose_config.var_velocity_m2_s2 = sigma_v_m_s * sigma_v_m_s;
+  pose_config.max_sigma_m = config_.acquire_sigma_m;
+  // Dead reckoning over half a second is not exact.
+  pose_config.accept_cost *= 3.0;
+  HemisphereRule rule;
+  if (ever_tracked_ || !config_.half_space) {
+    const CollectedPulse& middle = collector_.pulses()[1];
+    if (ever_tracked_) {
+      rule.predicted_emitter_m = middle.path.q_earth_emitter.conjugate() * middle.path.p_earth_m;
+    }
+  }
+  if (config_.half_space) {
+    rule.half_space = config_.half_space;
+    rule.predicted_emitter_m.reset();
+  }
+  const CoilPose pose = SolveCoilPose(pose_config, config_.source, *burst, rule);
+  if (pose.verdict != CoilPoseVerdict::kAccepted) {
+    state_.v_earth_m_s.setZero();  // dead reckoning must not run away meanwhile
+    return;
+  }
+  BeginTrack(frame, pose);
+  report.acquired = true;
+}
+
+void CoilInertialFilter::BeginTrack(const sensing::CoilFrame& frame, const CoilPose& pose) {
+  constexpr double kKeepWithin_rad = 0.35;  // of the dead-reckoned orientation, when there is one
+  const CollectedPulse& middle = collector_.pulses()[1];
+  const Eigen::Quaterniond q_EM_solved = middle.path.q_earth_sensor * pose.q_sensor_emitter;
+  const Eigen::Matrix3d R_ES = middle.path.q_earth_sensor.toRotationMatrix();
+  const Eigen::Matrix3d cov_theta_E = R_ES * pose.cov.bottomRightCorner<3, 3>() * R_ES.transpose();
+  const bool keep =
+      ever_tracked_ &&
+      math::AngleBetween_rad(q_EM_solved, middle.path.q_earth_emitter) < kKeepWithin_rad;
+  if (!keep) {
+    Eigen::Quaterniond q_EM =
+        q_EM_solved * middle.path.q_earth_emitter.conjugate() * state_.q_earth_emitter;
+    double sigma_tilt_rad = config_.start_sigma_tilt_rad;
+    if (frame.emitter_inertial && !ever_tracked_) {
+      // At rest the source's own accelerometer says better what is up.
+      const Eigen::Vector3d up_E = q_EM * frame.emitter_accel_m_s2;
+      q_EM = Levelled(up_E) * q_EM;
+    } else {
+      sigma_tilt_rad += std::sqrt(cov_theta_E.trace());
+    }
+    state_.q_earth_emitter = q_EM.normalized();
+    SetVariance(P_, Index::kEmitterTheta,
+                Eigen::Vector3d(sigma_tilt_rad, sigma_tilt_rad,
+                                sigma_tilt_rad + std::sqrt(cov_theta_E(2, 2))));
+  }
+  const Eigen::Matrix3d R_EM =
+      (keep ? middle.path.q_earth_emitter : q_EM_solved).toRotationMatrix();
+  const double age_s = ToSeconds(frame.measured_at - middle.middle_at);
+  state_.p_earth_m = R_EM * pose.p_emitter_sensor_m + (state_.p_earth_m - middle.path.p_earth_m);
+  // δp = δp_noise + (J_v + age) δv, with the velocity that was taken for dp and for the time since.
+  const double sigma_v_m_s = at_rest_ ? config_.rest_sigma_v_m_s : config_.start_sigma_v_m_s;
+  const double var_v = sigma_v_m_s * sigma_v_m_s;
+  Eigen::Matrix3d by_v = R_EM * pose.by_velocity.topRows<3>() * R_EM.transpose();
+  const Eigen::Matrix3d cov_p =
+      R_EM * pose.cov.topLeftCorner<3, 3>() * R_EM.transpose() - var_v * by_v * by_v.transpose();
+  by_v.diagonal().array() += age_s;
+  SetVariance(P_, Index::kP, 0.0);
+  SetVariance(P_, Index::kV, sigma_v_m_s);
+  P_.topLeftCorner<3, 3>() = cov_p + var_v * by_v * by_v.transpose();
+  P_.block<3, 3>(Index::kP, Index::kV) = var_v * by_v;
+  P_.block<3, 3>(Index::kV, Index::kP) = var_v * by_v.transpose();
+  state_.background_earth_tesla = collector_.background_earth_tesla();
+  SetVariance(P_, Index::kBackground, config_.start_sigma_background_tesla);
+  if (!ever_tracked_) {
+    background_start_tesla_ = state_.background_earth_tesla;
+  }
+  phase_ = CoilPhase::kTracking;
+  ever_tracked_ = true;
+  at_rest_ = false;
+  pulse_nis_ = 0.0;
+  pulse_samples_ = pulses_seen_ = rejected_in_a_row_ = 0;
+  gravity_at_ = background_at_ = frame.measured_at;
+  record_count_ = 1;
+  records_[0].chain_begins = true;
+  records_[0].measurement.fused = false;
+}
+
+void CoilInertialFilter::UseSample(const sensing::CoilFrame& frame, CoilUpdateReport& report) {
+  if (!frame.drive.settled || !frame.mag_valid || !frame.mag_tesla.allFinite()) {
+    if (report.verdict == CoilFrameVerdict::kUsed) {
+      report.verdict = CoilFrameVerdict::kInertialOnly;
+    }
+    return;
+  }
+  // Iterated: linearise, solve from the prediction, linearise where that led.
+  auto& record = records_[0].measurement;
+  const CoilInertialState before = state_;
+  CoilVector step = CoilVector::Zero();
+  Eigen::Matrix3d R_noise;
+  const double limit_m = config_.max_step * before.p_earth_m.norm();
+  const int iterations = frame.drive.coil >= 0 ? config_.iterations : 1;
+  for (int i = 0; i < iterations; ++i) {
+    const CoilPrediction h = PredictCoilSample(config_.source, frame.drive, Plus(before, step));
+    record.H = h.H;
+    record.nu = frame.mag_tesla - h.field_tesla + h.H * step;
+    const double relative = config_.relative_field_error * h.coil_tesla;
+    R_noise = (config_.sigma_mag_tesla * config_.sigma_mag_tesla + relative * relative) *
+              Eigen::Matrix3d::Identity();
+    if (i + 1 == iterations) {
+      break;
+    }
+    const Eigen::Matrix<double, Index::kAll, 3> PHt = P_ * record.H.transpose();
+    const Eigen::Matrix3d S = record.H * PHt + R_noise;
+    const Eigen::Vector3d weighted = S.llt().solve(record.nu);
+    const double nis = record.nu.dot(weighted);
+    step = PHt * weighted / std::max(1.0, nis / config_.gate.downweight_above_nis);
+    const double moved_m = step.segment<3>(Index::kP).norm();
+    if (moved_m > limit_m) {
+      step *= limit_m / moved_m;
+    }
+  }
+  const UpdateReport update = SoftUpdate(
+      config_.gate, R_noise, rejected_in_a_row_ < config_.gate.max_rejected_in_a_row, P_, record);
+  report.gate = update.outcome;
+  report.nis = update.nis;
+  rejected_in_a_row_ = update.outcome == GateOutcome::kRejected ? rejected_in_a_row_ + 1 : 0;
+  if (record.fused) {
+    step = record.K * record.nu;
+    const double moved_m = step.segment<3>(Index::kP).norm();
+    if (moved_m > limit_m) {
+      step *= limit_m / moved_m;
+    }
+    state_ = Plus(before, step);
+  } else if (report.verdict == CoilFrameVerdict::kUsed) {
+    report.verdict = CoilFrameVerdict::kInertialOnly;
+  }
+  const double background_tesla = state_.background_earth_tesla.norm();
+  if (background_tesla < 20e-6 || background_tesla > 80e-6) {
+    disturbed_until_ = frame.measured_at + std::chrono::seconds(1);
+  }
+}
+
+void CoilInertialFilter::UseGauges(const sensing::CoilFrame& frame) {
+  const auto use = [&](double sigma) {
+    CoilRecord& record = records_[record_count_];
+    record.into = {};
+    record.chain_begins = false;
+    // No gate: these say little, and always something.
+    SoftUpdate({.downweight_above_nis = 1e12, .reject_above_nis = 1e12},
+               Eigen::Matrix3d(sigma * sigma * Eigen::Matrix3d::Identity()), false, P_,
+               record.measurement);
+    if (record.measurement.fused) {
+      state_ = Plus(state_, record.measurement.K * record.measurement.nu);
+    }
+    ++record_count_;
+  };
+  const double since_gravity_s = ToSeconds(frame.measured_at - gravity_at_);
+  if (frame.emitter_inertial && since_gravity_s >= config_.gravity_period_s) {
+    constexpr double kSample_s = 1.0 / 120.0;  // the deviation is stated for one such sample
+    GravityGauge(state_, frame.emitter_accel_m_s2, records_[record_count_].measurement);
+    use(config_.sigma_gravity_m_s2 *
+        std::sqrt(std::min(1.0, kSample_s / std::max(since_gravity_s, kSample_s))));
+    gravity_at_ = frame.measured_at;
+  }
+  if (ToSeconds(frame.measured_at - background_at_) >= config_.background_period_s) {
+    BackgroundGauge(state_, background_start_tesla_, records_[record_count_].measurement);
+    use(config_.sigma_background_tesla);
+    background_at_ = frame.measured_at;
+  }
+}
+
+void CoilInertialFilter::WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report) {
+  if (frame.drive.coil >= 0) {
+    if (frame.drive.settled && report.nis > 0.0) {
+      constexpr double kMost = 100.0;  // one outlier is no loss of track
+      pulse_nis_ += std::min(report.nis, kMost);
+      ++pulse_samples_;
+    }
+  } else if (pulse_samples_ > 0) {
+    pulse_means_[static_cast<std::size_t>(pulses_seen_ % 3)] = pulse_nis_ / pulse_samples_;
+    ++pulses_seen_;
+    pulse_nis_ = 0.0;
+    pulse_samples_ = 0;
+    const double mean = (pulse_means_[0] + pulse_means_[1] + pulse_means_[2]) / 3.0;
+    if (pulses_seen_ >= 3 && mean / 3.0 > config_.lost_nis) {
+      Lose(report);
+      return;
+    }
+  }
+  const double range_m = state_.p_earth_m.norm();
+  const double sigma_m = std::sqrt(P_.topLeftCorner<3, 3>().trace());
+  const bool settled = pulses_seen_ >= 3;  // a new track is uncertain
+  if ((settled && !(sigma_m <= config_.lost_relative_sigma * range_m)) ||
+      range_m > config_.lost_range_m) {
+    Lose(report);
+  }
+}
+
+void CoilInertialFilter::Lose(CoilUpdateReport& report) {
+  phase_ = CoilPhase::kAcquiring;
+  collector_.Clear();
+  record_count_ = 0;
+  state_.v_earth_m_s.setZero();
+  if (!(state_.p_earth_m.norm() <= config_.lost_range_m)) {
+    state_.p_earth_m *= config_.pose.max_range_m / state_.p_earth_m.norm();
+  }
+  // What pulled the position away has pulled at all that hangs together with it.
+  P_ = CoilCovariance(P_.diagonal().asDiagonal());
+  SetVariance(P_, Index::kP, 0.0);
+  SetVariance(P_, Index::kV, 0.0);
+  const auto add = [this](int first, double sigma) {
+    P_.diagonal().segment<3>(first).array() += sigma * sigma;
+  };
+  add(Index::kSensorTheta, config_.start_sigma_tilt_rad);
+  add(Index::kEmitterTheta, config_.start_sigma_tilt_rad);
+  add(Index::kSensorAccelBias, config_.start_sigma_accel_bias_m_s2);
+  add(Index::kSensorGyroBias, config_.start_sigma_gyro_bias_rad_s);
+  if (last_ && last_->emitter_inertial) {
+    add(Index::kEmitterAccelBias, config_.start_sigma_accel_bias_m_s2);
+    add(Index::kEmitterGyroBias, config_.start_sigma_gyro_bias_rad_s);
+  }
+  report.lost = true;
+  ++losses_;
+}
+
+}  // namespace limbcast::filters

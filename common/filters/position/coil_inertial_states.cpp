@@ -1,0 +1,47 @@
+#include "common/filters/position/coil_inertial_states.hpp"
+
+#include "common/math/rotation.hpp"
+
+namespace limbcast::filters {
+
+using Index = CoilInertialIndex;
+
+bool CoilInertialState::IsFinite() const {
+  return p_earth_m.allFinite() && v_earth_m_s.allFinite() && q_earth_sensor.coeffs().allFinite() &&
+         q_earth_emitter.coeffs().allFinite() && sensor.gyro_bias_rad_s.allFinite() &&
+         sensor.accel_bias_m_s2.allFinite() && emitter.gyro_bias_rad_s.allFinite() &&
+         emitter.accel_bias_m_s2.allFinite() && background_earth_tesla.allFinite();
+}
+
+CoilInertialState Plus(const CoilInertialState& state, const CoilVector& d) {
+  CoilInertialState x = state;
+  x.p_earth_m += d.segment<3>(Index::kP);
+  x.v_earth_m_s += d.segment<3>(Index::kV);
+  x.q_earth_sensor =
+      (math::ExpSO3(d.segment<3>(Index::kSensorTheta)) * x.q_earth_sensor).normalized();
+  x.q_earth_emitter =
+      (math::ExpSO3(d.segment<3>(Index::kEmitterTheta)) * x.q_earth_emitter).normalized();
+  x.sensor.accel_bias_m_s2 += d.segment<3>(Index::kSensorAccelBias);
+  x.sensor.gyro_bias_rad_s += d.segment<3>(Index::kSensorGyroBias);
+  x.emitter.accel_bias_m_s2 += d.segment<3>(Index::kEmitterAccelBias);
+  x.emitter.gyro_bias_rad_s += d.segment<3>(Index::kEmitterGyroBias);
+  x.background_earth_tesla += d.segment<3>(Index::kBackground);
+  return x;
+}
+
+CoilVector Minus(const CoilInertialState& x, const CoilInertialState& y) {
+  CoilVector d;
+  d.segment<3>(Index::kP) = x.p_earth_m - y.p_earth_m;
+  d.segment<3>(Index::kV) = x.v_earth_m_s - y.v_earth_m_s;
+  d.segment<3>(Index::kSensorTheta) = math::LogSO3(x.q_earth_sensor * y.q_earth_sensor.conjugate());
+  d.segment<3>(Index::kEmitterTheta) =
+      math::LogSO3(x.q_earth_emitter * y.q_earth_emitter.conjugate());
+  d.segment<3>(Index::kSensorAccelBias) = x.sensor.accel_bias_m_s2 - y.sensor.accel_bias_m_s2;
+  d.segment<3>(Index::kSensorGyroBias) = x.sensor.gyro_bias_rad_s - y.sensor.gyro_bias_rad_s;
+  d.segment<3>(Index::kEmitterAccelBias) = x.emitter.accel_bias_m_s2 - y.emitter.accel_bias_m_s2;
+  d.segment<3>(Index::kEmitterGyroBias) = x.emitter.gyro_bias_rad_s - y.emitter.gyro_bias_rad_s;
+  d.segment<3>(Index::kBackground) = x.background_earth_tesla - y.background_earth_tesla;
+  return d;
+}
+
+}  // namespace limbcast::filters

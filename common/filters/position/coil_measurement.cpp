@@ -1,0 +1,53 @@
+#include "common/filters/position/coil_measurement.hpp"
+
+#include "common/math/rotation.hpp"
+
+namespace limbcast::filters {
+namespace {
+
+using Index = CoilInertialIndex;
+constexpr double kGravity_m_s2 = 9.81;  // design/position.md section 1
+
+}  // namespace
+
+CoilPrediction PredictCoilSample(const sensing::CoilSource& source, const sensing::CoilDrive& drive,
+                                 const CoilInertialState& state) {
+  CoilPrediction prediction;
+  const Eigen::Matrix3d R_SE = state.q_earth_sensor.toRotationMatrix().transpose();
+  Eigen::Vector3d field_E = state.background_earth_tesla;
+  if (drive.coil >= 0) {
+    const Eigen::Matrix3d R_EM = state.q_earth_emitter.toRotationMatrix();
+    const sensing::FieldAndJacobian f =
+        sensing::CoilField(source, drive.coil, drive.current_a, R_EM.transpose() * state.p_earth_m);
+    const Eigen::Vector3d b_E = R_EM * f.field_tesla;
+    const Eigen::Matrix3d J = R_EM * f.jacobian_tesla_m * R_EM.transpose();
+    field_E += b_E;
+    prediction.coil_tesla = b_E.norm();
+    prediction.H.middleCols<3>(Index::kP) = R_SE * J;
+    prediction.H.middleCols<3>(Index::kEmitterTheta) =
+        R_SE * (J * math::Skew(state.p_earth_m) - math::Skew(b_E));
+  }
+  prediction.field_tesla = R_SE * field_E;
+  prediction.H.middleCols<3>(Index::kSensorTheta) = R_SE * math::Skew(field_E);
+  prediction.H.middleCols<3>(Index::kBackground) = R_SE;
+  return prediction;
+}
+
+void GravityGauge(const CoilInertialState& state, const Eigen::Vector3d& accel_m_s2,
+                  MeasurementRecord<CoilInertialIndex::kAll, 3>& record) {
+  const Eigen::Matrix3d R_EM = state.q_earth_emitter.toRotationMatrix();
+  const Eigen::Vector3d f_E = R_EM * (accel_m_s2 - state.emitter.accel_bias_m_s2);
+  record.nu = kGravity_m_s2 * Eigen::Vector3d::UnitZ() - f_E;
+  record.H.setZero();
+  record.H.middleCols<3>(Index::kEmitterTheta) = -math::Skew(f_E);
+  record.H.middleCols<3>(Index::kEmitterAccelBias) = -R_EM;
+}
+
+void BackgroundGauge(const CoilInertialState& state, const Eigen::Vector3d& start_earth_tesla,
+                     MeasurementRecord<CoilInertialIndex::kAll, 3>& record) {
+  record.nu = start_earth_tesla - state.background_earth_tesla;
+  record.H.setZero();
+  record.H.middleCols<3>(Index::kBackground).setIdentity();
+}
+
+}  // namespace limbcast::filters

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "common/filters/position/coil_inertial_states.hpp"
+#include "common/sensing/coil_field.hpp"
+#include "common/sensing/coil_frame.hpp"
+
+namespace limbcast::filters {
+
+/// What one magnetometer sample should read, and how that depends on the error state.
+struct CoilPrediction {
+  Eigen::Vector3d field_tesla = Eigen::Vector3d::Zero();  ///< y, sensor axes
+  Eigen::Matrix<double, 3, CoilInertialIndex::kAll> H =
+      Eigen::Matrix<double, 3, CoilInertialIndex::kAll>::Zero();
+  double coil_tesla = 0.0;  ///< |b|
+};
+
+/// The measurement of every sample (design/position.md section 10):
+///
+///   y = R_sᵀ (m_e + b) ,  b = i R_m B_c(R_mᵀ p) ,  J = i R_m J_c R_mᵀ
+///   H: p: R_sᵀ J ;  θ_s: R_sᵀ [m_e + b]× ;  θ_m: R_sᵀ (−[b]× + J [p]×) ;  m_e: R_sᵀ
+[[nodiscard]] CoilPrediction PredictCoilSample(const sensing::CoilSource& source,
+                                               const sensing::CoilDrive& drive,
+                                               const CoilInertialState& state);
+
+/// The gauge: turning everything together cannot be observed. Residual and H of
+///
+///   0 = R_m f_m + g :  ν = −g − R_m f ,  θ_m: −[R_m f]× ,  b_am: −R_m
+///
+/// @param accel_m_s2  f_m as measured, emitter axes.
+void GravityGauge(const CoilInertialState& state, const Eigen::Vector3d& accel_m_s2,
+                  MeasurementRecord<CoilInertialIndex::kAll, 3>& record);
+
+/// The same of the background field: ν = m_start − m_e, H: m_e: I.
+void BackgroundGauge(const CoilInertialState& state, const Eigen::Vector3d& start_earth_tesla,
+                     MeasurementRecord<CoilInertialIndex::kAll, 3>& record);
+
+}  // namespace limbcast::filters

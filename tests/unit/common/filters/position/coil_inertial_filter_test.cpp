@@ -1,0 +1,180 @@
+#include "common/filters/position/coil_inertial_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "common/math/rotation.hpp"
+#include "tests/unit/common/filters/position/coil_scene.hpp"
+
+namespace limbcast::filters {
+namespace {
+
+using simulation::CoilTick;
+using Ticks = std::vector<CoilTick>;
+
+struct Outcome {
+  double rms_m = 0.0;
+  double rms_rad = 0.0;
+  double nees = 0.0;  // of the position in the emitter frame, mean of 3
+  double worst_m = 0.0;
+  int tracked = 0;
+  int losses = 0;
+};
+
+CoilInertialFilter MakeFilter(const CoilInertialConfig& config) {
+  auto made = CoilInertialFilter::Make(config);
+  EXPECT_TRUE(made);
+  return *made;
+}
+
+double Error_m(const CoilInertialFilter& filter, const CoilTick& tick) {
+  return (filter.state().p_emitter_sensor_m() - tick.p_emitter_sensor_m).norm();
+}
+
+Outcome Play(CoilInertialFilter filter, const Ticks& ticks, double scored_from_s) {
+  Outcome outcome;
+  for (const CoilTick& tick : ticks) {
+    filter.Update(tick.frame);
+    if (filter.phase() != CoilPhase::kTracking ||
+        ToSeconds(tick.frame.measured_at.time_since_epoch()) < scored_from_s) {
+      continue;
+    }
+    const double error_m = Error_m(filter, tick);
+    const double error_rad =
+        math::AngleBetween_rad(filter.state().q_sensor_emitter(), tick.q_sensor_emitter);
+    ++outcome.tracked;
+    outcome.rms_m += error_m * error_m;
+    outcome.rms_rad += error_rad * error_rad;
+    outcome.worst_m = std::max(outcome.worst_m, error_m);
+    outcome.nees += error_m * error_m / filter.covariance().topLeftCorner<3, 3>().trace();
+  }
+  outcome.rms_m = std::sqrt(outcome.rms_m / outcome.tracked);
+  outcome.rms_rad = std::sqrt(outcome.rms_rad / outcome.tracked);
+  outcome.nees *= 3.0 / outcome.tracked;
+  outcome.losses = filter.losses();
+  return outcome;
+}
+
+TEST(CoilInertialFilterTest, TracksASensorFromAMovingSource) {
+  const Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 25.0, 1);
+  const Outcome outcome = Play(MakeFilter(SwingConfig()), ticks, 5.0);
+  EXPECT_EQ(outcome.tracked, 120 * 20);
+  EXPECT_EQ(outcome.losses, 0);
+  EXPECT_LT(outcome.rms_m, 0.007);
+  EXPECT_LT(outcome.rms_rad, 0.0175);
+  EXPECT_LT(outcome.nees, 6.0);
+}
+
+TEST(CoilInertialFilterTest, TracksASensorFromAFixedSourceWithoutInertialUnit) {
+  const Ticks ticks = SwingingSensor(false, simulation::ThesisPulses(), 25.0, 2);
+  const Outcome outcome = Play(MakeFilter(SwingConfig()), ticks, 5.0);
+  EXPECT_EQ(outcome.tracked, 120 * 20);
+  EXPECT_LT(outcome.rms_m, 0.007);
+  EXPECT_LT(outcome.rms_rad, 0.0175);
+}
+
+TEST(CoilInertialFilterTest, BipolarPulsesOfAThirdOfTheLengthAreEnough) {
+  const Ticks ticks = SwingingSensor(true, simulation::BipolarPulses(), 15.0, 3);
+  const Outcome outcome = Play(MakeFilter(SwingConfig()), ticks, 5.0);
+  EXPECT_EQ(outcome.losses, 0);
+  EXPECT_LT(outcome.rms_m, 0.01);
+}
+
+TEST(CoilInertialFilterTest, EveryInjectedLossIsRecoveredWithinTwoSeconds) {
+  const Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 16.0, 4);
+  CoilInertialFilter filter = MakeFilter(SwingConfig());
+  CoilVector kick = CoilVector::Zero();
+  int injected = 0;
+  std::size_t injected_at = 0;
+  double worst_s = 0.0;
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    filter.Update(ticks[k].frame);
+    if (k >= 600 && k % 360 == 0 && k + 300 < ticks.size()) {
+      kick.setZero();
+      kick[CoilInertialIndex::kP + injected % 3] = injected % 2 == 0 ? 0.4 : -0.7;
+      kick[CoilInertialIndex::kV + (injected + 1) % 3] = injected % 2 == 0 ? 1.0 : 0.0;
+      filter.Disturb(kick);
+      ++injected;
+      injected_at = k;
+    }
+    if (injected > 0 &&
+        (filter.phase() != CoilPhase::kTracking || Error_m(filter, ticks[k]) > 0.05)) {
+      worst_s = std::max(worst_s, static_cast<double>(k - injected_at) / 120.0);
+    }
+  }
+  EXPECT_GE(injected, 3);
+  EXPECT_LT(worst_s, 2.0);
+}
+
+TEST(CoilInertialFilterTest, WithoutAHalfSpaceItDoesNotGuess) {
+  CoilInertialConfig config = SwingConfig();
+  config.half_space.reset();
+  CoilInertialFilter filter = MakeFilter(config);
+  for (const CoilTick& tick : SwingingSensor(true, simulation::ThesisPulses(), 4.0, 5)) {
+    filter.Update(tick.frame);
+    EXPECT_NE(filter.phase(), CoilPhase::kTracking);
+  }
+}
+
+TEST(CoilInertialFilterTest, BadInputDoesNotThrowItOff) {
+  Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 15.0, 6);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 600; k < ticks.size(); ++k) {
+    sensing::CoilFrame& frame = ticks[k].frame;
+    if (k % 97 == 0) {
+      frame.mag_tesla.y() = nan;
+    }
+    if (k % 101 == 0) {
+      frame.accel_m_s2.x() = nan;
+    }
+    if (k % 103 == 0) {
+      frame.mag_valid = false;
+      frame.mag_tesla.setConstant(150e-6);
+    }
+    if (k % 301 == 0) {
+      frame.mag_tesla += Eigen::Vector3d(3e-6, -2e-6, 1e-6);
+    }
+    if (k % 107 == 0) {
+      frame.measured_at = ticks[k - 1].frame.measured_at;
+    }
+  }
+  const Outcome outcome = Play(MakeFilter(SwingConfig()), ticks, 5.0);
+  EXPECT_EQ(outcome.losses, 0);
+  EXPECT_LT(outcome.rms_m, 0.012);
+}
+
+TEST(CoilInertialFilterTest, SaysWhatBecameOfAFrame) {
+  const Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 3.0, 7);
+  CoilInertialFilter filter = MakeFilter(SwingConfig());
+  for (const CoilTick& tick : ticks) {
+    filter.Update(tick.frame);
+  }
+  ASSERT_EQ(filter.phase(), CoilPhase::kTracking);
+  sensing::CoilFrame frame = ticks.back().frame;
+  EXPECT_EQ(filter.Update(frame).verdict, CoilFrameVerdict::kRejectedOutOfOrder);
+  frame.measured_at += std::chrono::milliseconds(8);
+  frame.mag_valid = false;
+  EXPECT_EQ(filter.Update(frame).verdict, CoilFrameVerdict::kInertialOnly);
+  frame.measured_at += std::chrono::milliseconds(8);
+  frame.gyro_rad_s.x() = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(filter.Update(frame).verdict, CoilFrameVerdict::kHeld);
+}
+
+TEST(CoilInertialFilterTest, AnEstimateThatIsNotFiniteBeginsAnew) {
+  const Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 8.0, 8);
+  CoilInertialFilter filter = MakeFilter(SwingConfig());
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    if (k == 400) {
+      CoilVector broken = CoilVector::Zero();
+      broken[0] = std::numeric_limits<double>::quiet_NaN();
+      filter.Disturb(broken);
+    }
+    filter.Update(ticks[k].frame);
+    EXPECT_TRUE(filter.state().IsFinite());
+  }
+}
+
+}  // namespace
+}  // namespace limbcast::filters

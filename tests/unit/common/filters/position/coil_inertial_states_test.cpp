@@ -1,0 +1,39 @@
+#include "common/filters/position/coil_inertial_states.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace limbcast::filters {
+namespace {
+
+TEST(CoilInertialStatesTest, MinusIsTheInverseOfPlus) {
+  CoilInertialState state;
+  state.q_earth_sensor = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5);
+  const CoilVector error = 0.3 * CoilVector::LinSpaced(-1.0, 1.0);
+  const CoilInertialState moved = Plus(state, error);
+  EXPECT_LT((Minus(moved, state) - error).norm(), 1e-12);
+  EXPECT_LT((Minus(Plus(state, Minus(moved, state)), moved)).norm(), 1e-12);
+}
+
+TEST(CoilInertialStatesTest, AttitudeErrorsAreInTheEarthFrame) {
+  CoilInertialState state;
+  state.q_earth_sensor = Eigen::AngleAxisd(1.5708, Eigen::Vector3d::UnitX());
+  CoilVector error = CoilVector::Zero();
+  error[CoilInertialIndex::kSensorTheta + 2] = 0.1;
+  const Eigen::Vector3d x_E = Plus(state, error).q_earth_sensor * Eigen::Vector3d::UnitX();
+  EXPECT_NEAR(x_E.y(), 0.0998, 1e-4);
+}
+
+TEST(CoilInertialStatesTest, OutputsAreRelativeToTheEmitter) {
+  CoilInertialState state;
+  state.p_earth_m = {0.0, 0.4, 0.0};
+  state.q_earth_emitter = Eigen::AngleAxisd(0.5 * 3.14159265358979, Eigen::Vector3d::UnitZ());
+  EXPECT_LT((state.p_emitter_sensor_m() - Eigen::Vector3d(0.4, 0.0, 0.0)).norm(), 1e-12);
+  EXPECT_TRUE(state.IsFinite());
+  state.v_earth_m_s.y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(state.IsFinite());
+}
+
+}  // namespace
+}  // namespace limbcast::filters

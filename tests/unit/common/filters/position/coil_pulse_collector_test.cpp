@@ -1,0 +1,70 @@
+#include "common/filters/position/coil_pulse_collector.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/filters/position/coil_pose_solver.hpp"
+#include "common/math/rotation.hpp"
+#include "common/simulation/coil_pulses.hpp"
+
+namespace limbcast::filters {
+namespace {
+
+const Eigen::Vector3d kEarth_tesla(0.0, 19e-6, -45e-6);
+const Eigen::Vector3d kCoil_tesla(1e-6, -2e-6, 0.5e-6);  // earth frame, at full current
+
+// A sensor that turns at 2 rad/s; the field is the same for all coils. Returns pulses seen.
+int Play(const simulation::CoilPulseConfig& pulses, double seconds, CoilPulseCollector& collector) {
+  int seen = 0;
+  for (int k = 0; k < static_cast<int>(120.0 * seconds); ++k) {
+    const double t_s = k / 120.0;
+    CoilPath path;
+    path.q_earth_sensor = math::ExpSO3(2.0 * t_s * Eigen::Vector3d(0.6, 0.0, 0.8));
+    sensing::CoilFrame frame;
+    frame.measured_at = TimeFromNanoseconds(0) + DurationFromSeconds(t_s);
+    frame.drive = simulation::StatedDrive(pulses, t_s);
+    const simulation::CoilCurrent current = simulation::TrueCurrent(pulses, t_s);
+    frame.mag_tesla = path.q_earth_sensor.conjugate() *
+                      (kEarth_tesla + current.current_a / pulses.current_a * kCoil_tesla);
+    seen += collector.Update(frame, path) ? 1 : 0;
+  }
+  return seen;
+}
+
+TEST(CoilPulseCollectorTest, RemovesTheBackgroundOfATurningSensor) {
+  for (const auto& pulses : {simulation::ThesisPulses(), simulation::BipolarPulses()}) {
+    CoilPulseCollector collector(50e-9, 3);
+    EXPECT_EQ(Play(pulses, 1.75, collector), 4);
+    EXPECT_EQ(collector.size(), 3U);
+    EXPECT_EQ(collector.newest().coil, 0);
+    EXPECT_LT((collector.newest().field_earth_tesla - kCoil_tesla).norm(), 3e-9);
+    EXPECT_LT((collector.background_earth_tesla() - kEarth_tesla).norm(), 1e-9);
+  }
+}
+
+TEST(CoilPulseCollectorTest, StatesTheNoiseOfTheAmplitude) {
+  CoilPulseCollector collector(50e-9, 10);
+  Play(simulation::ThesisPulses(), 1.75, collector);
+  // Six samples of a plateau and twenty of the background, or one more or less.
+  EXPECT_NEAR(collector.newest().sigma_tesla, 50e-9 * std::sqrt(1.0 / 6.0 + 1.0 / 20.0), 2.5e-9);
+  CoilPulseCollector bipolar(50e-9, 3);
+  Play(simulation::BipolarPulses(), 1.75, bipolar);
+  EXPECT_LT(bipolar.newest().sigma_tesla, 50e-9 / std::sqrt(2.0) + 1e-12);
+}
+
+TEST(CoilPulseCollectorTest, ABurstIsAtTheMiddleOfTheSecondPulse) {
+  CoilPulseCollector collector(50e-9, 3);
+  Play(simulation::ThesisPulses(), 1.35, collector);
+  EXPECT_FALSE(collector.Burst());
+  collector.Clear();
+  Play(simulation::ThesisPulses(), 1.75, collector);
+  const auto burst = collector.Burst();
+  ASSERT_TRUE(burst);
+  EXPECT_LT(((*burst)[1].R_pulse_reference_sensor - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_NEAR((*burst)[0].time_from_reference_s, -0.2, 1e-6);
+  EXPECT_NEAR((*burst)[2].time_from_reference_s, 0.2, 1e-6);
+}
+
+}  // namespace
+}  // namespace limbcast::filters

@@ -1,0 +1,80 @@
+#include "tools/limbcast/evaluate/coil_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace limbcast::tool {
+namespace {
+
+constexpr double kMmPerM = 1e3;
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+const CoilExperiment* ExperimentOf(std::span<const CoilExperiment> experiments,
+                                   const std::string& name) {
+  const auto found = std::find_if(experiments.begin(), experiments.end(),
+                                  [&](const CoilExperiment& e) { return e.name == name; });
+  return found == experiments.end() ? nullptr : &*found;
+}
+
+const char* TextOf(CoilNoise noise) {
+  return noise == CoilNoise::kThesis ? "50 nT, unipolar pulses of 60 ms, 3 in 600 ms"
+                                     : "15 nT, bipolar pulses of 17 + 17 ms, 3 in 600 ms";
+}
+
+}  // namespace
+
+std::string CoilTable(std::span<const CoilExperiment> experiments,
+                      std::span<const CoilResult> results) {
+  std::string text;
+  for (const CoilNoise noise : {CoilNoise::kThesis, CoilNoise::kModern}) {
+    text += fmt::format(
+        "\n{}; RMS: position in 3-D and distance, mm; orientation, deg\n{:<20} {:>5} | {:^20} | "
+        "{:^20} | {:^20} | {:^20} | {:^11} {:^10} | {:>5} {:>6} {:>5}\n",
+        TextOf(noise), "experiment", "range", "magnetic only", "forward", "lag 0.6 s", "smoothed",
+        "publ. magn.", "publ. fused", "valid", "losses", "NEES");
+    for (const CoilResult& r : results) {
+      const CoilExperiment* e = ExperimentOf(experiments, r.experiment);
+      if (r.noise != noise || e == nullptr) {
+        continue;
+      }
+      text += fmt::format("{:<20} {:>5.2f}", r.experiment, r.mean_range_m);
+      for (const CoilFigure& f : r.figures) {
+        text += fmt::format(" | {:>7.1f} {:>6.1f} {:>5.2f}", kMmPerM * f.position_m,
+                            kMmPerM * f.distance_m, kDegPerRad * f.orientation_rad);
+      }
+      text +=
+          fmt::format(" | {:>5.1f} {:>5.1f} {:>5.1f} {:>4.1f} | {:>4.0f}% {:>6} {:>5.1f}\n",
+                      e->published_magnetic_mm, e->published_magnetic_deg, e->published_fused_mm,
+                      e->published_fused_deg, 100.0 * r.tracked, r.losses, r.nees);
+    }
+  }
+  return text;
+}
+
+nlohmann::json CoilJson(std::span<const CoilExperiment> experiments,
+                        std::span<const CoilResult> results, std::uint64_t seed) {
+  nlohmann::json json = {{"seed", seed}, {"trials", nlohmann::json::array()}};
+  for (const CoilResult& r : results) {
+    nlohmann::json trial = {
+        {"experiment", r.experiment}, {"noise", TextOf(r.noise)}, {"mean_range_m", r.mean_range_m},
+        {"tracked", r.tracked},       {"losses", r.losses},       {"nees_per_axis", r.nees}};
+    for (std::size_t i = 0; i < kCoilMethodCount; ++i) {
+      const CoilFigure& f = r.figures[i];
+      trial[kCoilMethodNames[i]] = {{"position_m", f.position_m},
+                                    {"distance_m", f.distance_m},
+                                    {"orientation_rad", f.orientation_rad}};
+    }
+    if (const CoilExperiment* e = ExperimentOf(experiments, r.experiment)) {
+      trial["published"] = {{"magnetic_only_m", e->published_magnetic_mm / kMmPerM},
+                            {"magnetic_only_rad", e->published_magnetic_deg / kDegPerRad},
+                            {"fused_m", e->published_fused_mm / kMmPerM},
+                            {"fused_rad", e->published_fused_deg / kDegPerRad}};
+    }
+    json["trials"].push_back(trial);
+  }
+  return json;
+}
+
+}  // namespace limbcast::tool

@@ -1,0 +1,189 @@
+#include "tools/limbcast/evaluate/coil_trial.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "common/base/expects.hpp"
+#include "common/filters/position/coil_smoothing.hpp"
+#include "common/math/rotation.hpp"
+#include "common/simulation/random.hpp"
+
+namespace limbcast::tool {
+namespace {
+
+using simulation::CoilTick;
+
+constexpr double kLag_s = 0.6;
+constexpr double kScoredFrom_s = 5.0;
+
+struct Setting {
+  double sigma_tesla;
+  simulation::CoilPulseConfig pulses;
+};
+
+Setting SettingOf(CoilNoise noise) {
+  return noise == CoilNoise::kThesis ? Setting{50e-9, simulation::ThesisPulses()}
+                                     : Setting{15e-9, simulation::BipolarPulses()};
+}
+
+class Score {
+ public:
+  void Add(const Eigen::Vector3d& p_emitter_m, const Eigen::Quaterniond& q_sensor_emitter,
+           const CoilTick& truth) {
+    const double distance_m = p_emitter_m.norm() - truth.p_emitter_sensor_m.norm();
+    const double turn_rad = math::AngleBetween_rad(q_sensor_emitter, truth.q_sensor_emitter);
+    sum_.position_m += (p_emitter_m - truth.p_emitter_sensor_m).squaredNorm();
+    sum_.distance_m += distance_m * distance_m;
+    sum_.orientation_rad += turn_rad * turn_rad;
+    ++sum_.count;
+  }
+  [[nodiscard]] CoilFigure Figure() const {
+    CoilFigure figure = sum_;
+    for (double* value : {&figure.position_m, &figure.distance_m, &figure.orientation_rad}) {
+      *value = std::sqrt(*value / std::max(1, figure.count));
+    }
+    return figure;
+  }
+
+ private:
+  CoilFigure sum_;
+};
+
+bool IsScored(const CoilTick& tick) {
+  return ToSeconds(tick.frame.measured_at.time_since_epoch()) >= kScoredFrom_s;
+}
+
+std::size_t TickAt(const std::vector<CoilTick>& ticks, Time at, double rate_hz) {
+  const double k = ToSeconds(at - ticks.front().frame.measured_at) * rate_hz;
+  return static_cast<std::size_t>(std::lround(k));
+}
+
+// Gyro attitudes for the magnetic tracker: the filter's own inertial path is not used.
+CoilFigure MagneticOnly(const std::vector<CoilTick>& ticks, const CoilExperiment& experiment,
+                        const Setting& setting, const sensing::CoilSource& source, double rate_hz) {
+  constexpr int kBackgroundAfter = 10;
+  filters::CoilPulseCollector collector(setting.sigma_tesla, kBackgroundAfter);
+  filters::CoilPath path;
+  Score score;
+  filters::HemisphereRule rule;
+  rule.half_space = experiment.half_space;
+  rule.boundary_rad = 0.0;
+  filters::CoilPoseConfig config;
+  config.accept_cost = 1e9;  // motion between the pulses is in the cost: it is what is measured
+  config.max_sigma_m = 1e9;
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    const sensing::CoilFrame& frame = ticks[k].frame;
+    if (k > 0) {
+      const sensing::CoilFrame& last = ticks[k - 1].frame;
+      path.q_earth_sensor =
+          (path.q_earth_sensor * math::ExpSO3(0.5 / rate_hz * (last.gyro_rad_s + frame.gyro_rad_s)))
+              .normalized();
+      if (experiment.emitter_inertial) {
+        path.q_earth_emitter =
+            (path.q_earth_emitter *
+             math::ExpSO3(0.5 / rate_hz * (last.emitter_gyro_rad_s + frame.emitter_gyro_rad_s)))
+                .normalized();
+      }
+    }
+    if (!collector.Update(frame, path)) {
+      continue;
+    }
+    const auto burst = collector.Burst();
+    const std::size_t middle = TickAt(ticks, collector.pulses()[1].middle_at, rate_hz);
+    if (!burst || !IsScored(ticks[middle])) {
+      continue;
+    }
+    const filters::CoilPose pose = filters::SolveCoilPose(config, source, *burst, rule);
+    score.Add(pose.p_emitter_sensor_m, pose.q_sensor_emitter, ticks[middle]);
+  }
+  return score.Figure();
+}
+
+}  // namespace
+
+CoilResult EvaluateCoil(const CoilExperiment& experiment, CoilNoise noise, std::uint64_t seed) {
+  const Setting setting = SettingOf(noise);
+  simulation::CoilStreamConfig stream;
+  stream.pulses = setting.pulses;
+  stream.sensor = experiment.sensor;
+  stream.emitter = experiment.emitter;
+  stream.emitter_inertial = experiment.emitter_inertial;
+  stream.errors = simulation::CoilSensorErrors(setting.sigma_tesla);
+  // A room: the field changes by about 0.5 µT in a metre.
+  simulation::Random random(seed, "gradient");
+  Eigen::Matrix3d G = Eigen::Matrix3d::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    G.row(i) = 0.3e-6 * random.Gaussian3().transpose();
+  }
+  G = (0.5 * (G + G.transpose())).eval();
+  G -= G.trace() / 3.0 * Eigen::Matrix3d::Identity();
+  stream.gradient_tesla_m = G;
+  const auto ticks = simulation::SimulateCoil(stream, experiment.duration_s, seed);
+
+  filters::CoilInertialConfig config;
+  config.source = stream.source;
+  config.sigma_mag_tesla = setting.sigma_tesla;
+  config.half_space = experiment.half_space;
+  config.walk_background_tesla_rts = experiment.walk_background_tesla_rts;
+  // The inertial units of CoilSensorErrors; scale and misalignment are 0.2 % each.
+  config.inertial.sigma_accel_m_s2_rthz = 3e-3;
+  config.inertial.sigma_gyro_rad_s_rthz = 1e-3;
+  config.inertial.k_accel = 4e-3;
+  config.relative_field_error = 3e-3;
+  auto filter = filters::CoilInertialFilter::Make(config);
+  Expects(filter.ok(), "the default configuration");
+  filters::CoilFixedLag fixed_lag(kLag_s, stream.rate_hz);
+  filters::CoilIntervalSmoother smoother;
+  std::array<Score, kCoilMethodCount> scores;
+  const auto score = [&](CoilMethod method) -> Score& {
+    return scores[static_cast<std::size_t>(method)];
+  };
+  CoilResult result;
+  result.experiment = experiment.name;
+  result.noise = noise;
+  double scored = 0.0;
+  for (const CoilTick& tick : ticks) {
+    filter->Update(tick.frame);
+    const bool valid = filter->phase() == filters::CoilPhase::kTracking;
+    const filters::CoilEstimate now =
+        filters::EstimateOf(filter->state(), filter->covariance(), tick.frame.measured_at, valid);
+    smoother.Add(*filter, tick.frame.measured_at);
+    filters::CoilEstimate lagged;
+    if (fixed_lag.Update(*filter, tick.frame.measured_at, lagged) && lagged.valid) {
+      const CoilTick& then = ticks[TickAt(ticks, lagged.measured_at, stream.rate_hz)];
+      if (IsScored(then)) {
+        score(CoilMethod::kFixedLag).Add(lagged.p_emitter_sensor_m, lagged.q_sensor_emitter, then);
+      }
+    }
+    if (!IsScored(tick)) {
+      continue;
+    }
+    scored += 1.0;
+    result.mean_range_m += tick.p_emitter_sensor_m.norm();
+    if (valid) {
+      result.tracked += 1.0;
+      score(CoilMethod::kForward).Add(now.p_emitter_sensor_m, now.q_sensor_emitter, tick);
+      result.nees += (now.p_emitter_sensor_m - tick.p_emitter_sensor_m).squaredNorm() /
+                     (now.sigma_m * now.sigma_m);
+    }
+  }
+  result.nees /= std::max(1.0, result.tracked);
+  result.mean_range_m /= std::max(1.0, scored);
+  result.tracked /= std::max(1.0, scored);
+  result.losses = filter->losses();
+  const auto smoothed = smoother.Smooth();
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    if (smoothed[k].valid && IsScored(ticks[k])) {
+      score(CoilMethod::kSmoothed)
+          .Add(smoothed[k].p_emitter_sensor_m, smoothed[k].q_sensor_emitter, ticks[k]);
+    }
+  }
+  for (std::size_t i = 0; i < kCoilMethodCount; ++i) {
+    result.figures[i] = scores[i].Figure();
+  }
+  result.figures[static_cast<std::size_t>(CoilMethod::kMagneticOnly)] =
+      MagneticOnly(ticks, experiment, setting, stream.source, stream.rate_hz);
+  return result;
+}
+
+}  // namespace limbcast::tool
