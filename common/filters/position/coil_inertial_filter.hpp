@@ -8,6 +8,7 @@
 #include "common/base/result.hpp"
 #include "common/filters/position/coil_inertial_config.hpp"
 #include "common/filters/position/coil_inertial_states.hpp"
+#include "common/filters/position/coil_motion_solver.hpp"
 #include "common/filters/position/coil_pulse_collector.hpp"
 #include "common/sensing/coil_frame.hpp"
 
@@ -71,6 +72,8 @@ class CoilInertialFilter {
   void Propagate(const sensing::CoilFrame& frame, double dt_s, double inflation);
   void Acquire(const sensing::CoilFrame& frame, CoilUpdateReport& report);
   void BeginTrack(const sensing::CoilFrame& frame, const CoilPose& pose);
+  void Resume(const sensing::CoilFrame& frame, const CoilMotion& motion);
+  void EnterTracking(const sensing::CoilFrame& frame);
   void UseSample(const sensing::CoilFrame& frame, CoilUpdateReport& report);
   void UseGauges(const sensing::CoilFrame& frame);
   void WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report);
@@ -116,6 +119,7 @@ class CoilInertialFilter {
   int pulses_seen_ = 0;
   int rejected_in_a_row_ = 0;
   int losses_ = 0;
+  int attempts_ = 0;  // of this re-acquisition
 };
 
 }  // namespace limbcast::filters
