@@ -3,6 +3,7 @@
 
 #include "common/service/service_command_line.hpp"
 #include "tools/limbcast/calibrate_command.hpp"
+#include "tools/limbcast/coil_command.hpp"
 #include "tools/limbcast/demo_command.hpp"
 #include "tools/limbcast/echo_command.hpp"
 #include "tools/limbcast/evaluate_command.hpp"
@@ -23,7 +24,7 @@ int main(int argc, char** argv) {
   const std::array commands = {
       tool::AddDemoCommand(line),      tool::AddTopCommand(line),      tool::AddRunCommand(line),
       tool::AddEchoCommand(line),      tool::AddEvaluateCommand(line), tool::AddSmoothCommand(line),
-      tool::AddCalibrateCommand(line),
+      tool::AddCalibrateCommand(line), tool::AddCoilCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;

@@ -1,0 +1,59 @@
+#include "common/sensing/coil_slots.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "common/sensing/coil_field.hpp"
+
+namespace limbcast::sensing {
+
+Status Validate(const CoilSlotConfig& c) {
+  struct Range {
+    const char* name;
+    double value, low, high;
+  };
+  const std::array ranges = {
+      Range{"pulse_s", c.pulse_s, 1e-3, 1.0},
+      Range{"clock_error_s", c.clock_error_s, 0.0, 0.1},
+      Range{"tail_s", c.tail_s, 0.0, 0.1},
+      Range{"free_running_hz", c.free_running_hz, 0.0, 1e5},
+      Range{"background_s", c.background_s, 0.0, 1.0},
+      Range{"burst_rate_hz", c.burst_rate_hz, 0.01, 100.0},
+      Range{"moment_a_m2", c.moment_a_m2, 1e-3, 100.0},
+      Range{"harmless_tesla", c.harmless_tesla, 1e-12, 1e-6},
+  };
+  for (const Range& range : ranges) {
+    if (!(range.value >= range.low && range.value <= range.high)) {
+      return Error{ErrorCode::kInvalidArgument, std::string("coil slots: ") + range.name +
+                                                    " must be in [" + std::to_string(range.low) +
+                                                    ", " + std::to_string(range.high) + "], is " +
+                                                    std::to_string(range.value)};
+    }
+  }
+  return Ok();
+}
+
+CoilSlotPlan PlanCoilSlots(const CoilSlotConfig& c) {
+  CoilSlotPlan plan;
+  plan.guard_s = 2.0 * c.clock_error_s + c.tail_s;
+  if (c.free_running_hz > 0.0) {
+    plan.guard_s += 1.0 / c.free_running_hz;
+  }
+  plan.slot_s = c.pulse_s + plan.guard_s;
+  plan.slots_per_s = 1.0 / plan.slot_s;
+  plan.burst_s = 3.0 * plan.slot_s + c.background_s;
+  plan.bursts_per_s = 1.0 / plan.burst_s;
+  plan.users = plan.bursts_per_s / c.burst_rate_hz;
+  plan.reuse_distance_m = std::cbrt(ForeignField_tesla(c.moment_a_m2, 1.0) / c.harmless_tesla);
+  plan.duty = 3.0 * c.pulse_s * c.burst_rate_hz;
+  return plan;
+}
+
+double ForeignField_tesla(double moment_a_m2, double distance_m) {
+  return std::numbers::sqrt2 * kMu0_t_m_a * moment_a_m2 /
+         (4.0 * std::numbers::pi * std::pow(distance_m, 3));
+}
+
+}  // namespace limbcast::sensing
