@@ -25,8 +25,8 @@ std::optional<Eigen::Matrix3d> SignalMatrix(std::span<const CoilObservation> obs
 Eigen::Matrix3d ProcrustesRotation(const Eigen::Matrix3d& S, const Eigen::Matrix3d& B) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(S * B.transpose(),
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d U = svd.matrixU();
-  const Eigen::Matrix3d V = svd.matrixV();
+  const Eigen::Matrix3d& U = svd.matrixU();
+  const Eigen::Matrix3d& V = svd.matrixV();
   const double sign = (U * V.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   return U * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * V.transpose();
 }
