@@ -17,7 +17,6 @@ namespace {
 
 using simulation::GestureKind;
 using simulation::Jet;
-using simulation::Jet3;
 using simulation::Phase;
 using simulation::PhaseKind;
 using simulation::RigidMotion;
