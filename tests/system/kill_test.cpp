@@ -18,6 +18,10 @@ namespace {
 using namespace std::chrono_literals;
 using namespace test_support;
 
+// Ticks come every 10 ms. How many are missed depends on how fast a process starts: it was five on
+// a quiet machine, and at least one.
+constexpr double kTickMissed_s = 0.015;
+
 class KillTest : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -89,7 +93,7 @@ TEST_P(KillTest, FusionIsReplacedAndItsGapIsCounted) {
   SCOPED_TRACE(summary.dump(2));
   EXPECT_EQ(summary["restarts"], nlohmann::json({{"fusion", 1}}));
   EXPECT_GT(BalanceOf(summary).lost, 0U);
-  EXPECT_GT(summary["longest_skeleton_gap_s"].get<double>(), 0.05);
+  EXPECT_GT(summary["longest_skeleton_gap_s"].get<double>(), kTickMissed_s);
 }
 
 TEST_P(KillTest, PostureAndGatewayAreReplacedAndTheGapIsSeen) {
@@ -101,7 +105,7 @@ TEST_P(KillTest, PostureAndGatewayAreReplacedAndTheGapIsSeen) {
   const nlohmann::json summary = EndDemo();
   SCOPED_TRACE(summary.dump(2));
   EXPECT_EQ(summary["restarts"], nlohmann::json({{"posture", 1}, {"gateway", 1}}));
-  EXPECT_GT(summary["longest_skeleton_gap_s"].get<double>(), 0.05);
+  EXPECT_GT(summary["longest_skeleton_gap_s"].get<double>(), kTickMissed_s);
 }
 
 TEST_P(KillTest, NothingIsLeftWhenTheDemoItselfIsKilled) {
