@@ -10,6 +10,7 @@
 #include "services/gateway/drivers/simulator/simulator_driver.hpp"
 #include "tests/golden/golden_trace.hpp"
 #include "tools/limbcast/evaluate/orientation_report.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 namespace {
 

@@ -18,12 +18,10 @@
 #include "tools/limbcast/calibrate/calibration_report.hpp"
 #include "tools/limbcast/calibrate/live_collector.hpp"
 #include "tools/limbcast/calibrate/sensor_samples.hpp"
-#include "tools/limbcast/evaluate/orientation_report.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
 namespace {
-
-constexpr double kMicroTesla = 1e-6;
 
 struct CalibrateOptions {
   std::string recording;
@@ -116,7 +114,7 @@ int CalibrateSensors(const service::ServiceCommandLine& line, const CalibrateOpt
   settings.method = options.method == "papers" ? sensing::CalibrationMethod::kPapers
                                                : sensing::CalibrationMethod::kFits;
   settings.gravity_m_s2 = options.gravity_m_s2;
-  settings.field_tesla = options.field_ut * kMicroTesla;
+  settings.field_tesla = units::TeslaFromMicrotesla(options.field_ut);
   settings.level_positions = options.level;
   settings.known_rotation_rad = units::RadFromDeg(options.known_rotation_deg);
   const runtime::SystemClock clock;
@@ -155,9 +153,10 @@ int CalibrateSession(const service::ServiceCommandLine& line, CalibrateOptions o
   if (!sensors) {
     return line.Fail(sensors.error());
   }
-  const sensing::SessionConfig config{.window_s = options.seconds,
-                                      .declination_rad = units::RadFromDeg(options.declination_deg),
-                                      .expected_field_tesla = options.field_ut * kMicroTesla};
+  const sensing::SessionConfig config{
+      .window_s = options.seconds,
+      .declination_rad = units::RadFromDeg(options.declination_deg),
+      .expected_field_tesla = units::TeslaFromMicrotesla(options.field_ut)};
   std::vector<NamedReference> references;
   for (const SensorSamples& sensor : *sensors) {
     NamedReference named{.name = sensor.Name(), .reference = {}, .refusal = {}};

@@ -8,7 +8,7 @@
 
 #include "common/simulation/random.hpp"
 #include "tools/limbcast/evaluate/coil_report.hpp"
-#include "tools/limbcast/evaluate/orientation_report.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
 namespace {

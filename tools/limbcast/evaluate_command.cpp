@@ -20,6 +20,7 @@
 #include "tools/limbcast/evaluate_coil_command.hpp"
 #include "tools/limbcast/evaluate_gaps_command.hpp"
 #include "tools/limbcast/evaluate_published_command.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "services/gateway/drivers/replay/recording_reader.hpp"
 #include "tools/limbcast/evaluate/gap_report.hpp"
-#include "tools/limbcast/evaluate/orientation_report.hpp"
 #include "tools/limbcast/position_settings.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
 namespace {

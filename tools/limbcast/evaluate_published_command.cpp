@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/limbcast/evaluate/orientation_report.hpp"
 #include "tools/limbcast/evaluate/progress_bar.hpp"
 #include "tools/limbcast/evaluate/published_figures.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
 namespace {

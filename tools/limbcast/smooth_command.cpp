@@ -12,9 +12,9 @@
 #include "common/filters/position/position_series.hpp"
 #include "services/gateway/drivers/replay/recording_reader.hpp"
 #include "tools/limbcast/evaluate/gap_trial.hpp"
-#include "tools/limbcast/evaluate/orientation_report.hpp"
 #include "tools/limbcast/evaluate/position_csv.hpp"
 #include "tools/limbcast/position_settings.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
 namespace {

@@ -39,16 +39,6 @@ Eigen::Quaterniond Levelled(const Eigen::Vector3d& accel_m_s2) {
   return Eigen::Quaterniond::FromTwoVectors(accel_m_s2, Eigen::Vector3d::UnitZ());
 }
 
-void SetVariance(CoilCovariance& P, int first, const Eigen::Vector3d& sigma) {
-  P.middleRows<3>(first).setZero();
-  P.middleCols<3>(first).setZero();
-  P.diagonal().segment<3>(first) = sigma.cwiseAbs2();
-}
-
-void SetVariance(CoilCovariance& P, int first, double sigma) {
-  SetVariance(P, first, Eigen::Vector3d::Constant(sigma));
-}
-
 bool InertialFinite(const sensing::CoilFrame& frame) {
   return frame.gyro_rad_s.allFinite() && frame.accel_m_s2.allFinite() &&
          (!frame.emitter_inertial ||

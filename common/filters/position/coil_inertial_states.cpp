@@ -44,4 +44,14 @@ CoilVector Minus(const CoilInertialState& x, const CoilInertialState& y) {
   return d;
 }
 
+void SetVariance(CoilCovariance& P, int first, const Eigen::Vector3d& sigma) {
+  P.middleRows<3>(first).setZero();
+  P.middleCols<3>(first).setZero();
+  P.diagonal().segment<3>(first) = sigma.cwiseAbs2();
+}
+
+void SetVariance(CoilCovariance& P, int first, double sigma) {
+  SetVariance(P, first, Eigen::Vector3d::Constant(sigma));
+}
+
 }  // namespace limbcast::filters

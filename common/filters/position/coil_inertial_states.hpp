@@ -56,4 +56,8 @@ struct CoilInertialState {
 /// X ⊟ Y: the error vector that takes Y to X.
 [[nodiscard]] CoilVector Minus(const CoilInertialState& x, const CoilInertialState& y);
 
+/// Gives the three errors from `first` a variance of their own: no covariance with any other.
+void SetVariance(CoilCovariance& P, int first, const Eigen::Vector3d& sigma);
+void SetVariance(CoilCovariance& P, int first, double sigma);
+
 }  // namespace limbcast::filters

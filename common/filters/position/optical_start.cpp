@@ -154,11 +154,17 @@ std::optional<OpticalStartResult> OpticalStart::Solve(const Window& w) const {
   const Eigen::Vector3d p0(x[2], x[3], x_z[0]);
   const Eigen::Vector3d v0(x[4], x[5], x_z[1]);
   const Eigen::Vector3d a0(x[6], x[7], x_z[2]);
-  OpticalStartResult out;
-  out.heading_rad = std::atan2(d, c);
-  const Eigen::Quaterniond q_EL = math::ExpSO3({0.0, 0.0, out.heading_rad});
+  OpticalStartResult out = Turned(std::atan2(d, c));
   out.navigation.p_earth_sensor_m = w.z_first + s_E + p0 + t * v0 + 0.5 * t * t * a0;
   out.navigation.v_earth_sensor_m_s = ds_E + v0 + t * a0;
+  return out;
+}
+
+// What the levelled frame gives once its heading is known.
+OpticalStartResult OpticalStart::Turned(double heading_rad) const {
+  OpticalStartResult out;
+  const Eigen::Quaterniond q_EL = math::ExpSO3({0.0, 0.0, heading_rad});
+  out.heading_rad = heading_rad;
   out.navigation.q_earth_sensor = (q_EL * q_LS_).normalized();
   out.gyro_bias_rad_s = gyro_bias_rad_s_;
   out.had_rest = had_rest_;
@@ -171,15 +177,8 @@ std::optional<OpticalStartResult> OpticalStart::Guess(double heading_rad) const 
   if (!levelled_ || !last_marker_) {
     return std::nullopt;
   }
-  OpticalStartResult out;
-  const Eigen::Quaterniond q_EL = math::ExpSO3({0.0, 0.0, heading_rad});
-  out.heading_rad = heading_rad;
+  OpticalStartResult out = Turned(heading_rad);
   out.navigation.p_earth_sensor_m = last_marker_->p_earth_marker_m;
-  out.navigation.q_earth_sensor = (q_EL * q_LS_).normalized();
-  out.gyro_bias_rad_s = gyro_bias_rad_s_;
-  out.had_rest = had_rest_;
-  out.rest_begun_at = rest_begun_at_;
-  out.q_earth_sensor_at_rest = (q_EL * q_LS_rest_).normalized();
   return out;
 }
 

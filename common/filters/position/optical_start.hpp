@@ -71,6 +71,7 @@ class OpticalStart {
   void AddToWindow(Window& window, const Eigen::Vector3d& accel_L, double dt_s,
                    const std::optional<TimedMarker>& marker);
   [[nodiscard]] std::optional<OpticalStartResult> Solve(const Window& window) const;
+  [[nodiscard]] OpticalStartResult Turned(double heading_rad) const;
 
   double gravity_m_s2_;
   bool levelled_ = false;

@@ -4,6 +4,7 @@
 
 #include "common/sensing/sphere_coverage.hpp"
 #include "tools/limbcast/calibrate/calibration_report.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
 namespace {
@@ -12,23 +13,6 @@ using Vectors = std::vector<Eigen::Vector3d>;
 
 constexpr double kDisc = 90.0;  // radius of a hemisphere, SVG units
 constexpr double kView = 200.0;
-
-std::string Escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string Dot(double x, double y, double radius, const char* colour) {
   return fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='{}'/>", x, y, radius, colour);
@@ -120,8 +104,8 @@ std::string CalibrationHtml(std::span<const NamedReport> sensors,
       "readings). Squares: readings <span style='color:#c4572e'>before</span> and <span "
       "style='color:#0b6e99'>after</span>; they belong on a ball whose outline is the circle.</p>";
   for (const NamedReport& sensor : sensors) {
-    html +=
-        "<h2>" + Escaped(sensor.name) + "</h2><pre>" + Escaped(CalibrationText(sensor)) + "</pre>";
+    html += "<h2>" + EscapedHtml(sensor.name) + "</h2><pre>" +
+            EscapedHtml(CalibrationText(sensor)) + "</pre>";
     html += Channel("accelerometer at rest", sensor.report.accel, settings.gravity_m_s2);
     html += Channel("magnetometer", sensor.report.mag, settings.field_tesla);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/limbcast/evaluate/orientation_report.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
 namespace {
@@ -15,23 +16,6 @@ constexpr double kLeft = 46.0;
 constexpr double kBottom = 22.0;
 constexpr std::array<const char*, 6> kColours = {"#0b6e99", "#c4572e", "#3d8f4f",
                                                  "#8a5aa8", "#a98600", "#555555"};
-
-std::string Escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string ColourOf(const ReportHead& head, const std::string& filter) {
   const auto at = std::find(head.filters.begin(), head.filters.end(), filter);
@@ -94,7 +78,7 @@ std::string Legend(const ReportHead& head, std::span<const OrientationResult* co
     text += fmt::format(
         "<span style='color:{}'>■</span> {}: total {:.2f}°, heading {:.2f}°, inclination {:.2f}°, "
         "largest {:.1f}°, NEES {:.2f} of 3 &nbsp; ",
-        ColourOf(head, r->filter), Escaped(r->filter), r->errors.total_rms_deg(),
+        ColourOf(head, r->filter), EscapedHtml(r->filter), r->errors.total_rms_deg(),
         r->errors.heading_rms_deg(), r->errors.inclination_rms_deg(), r->errors.total_max_deg(),
         r->mean_nees);
   }
@@ -110,7 +94,7 @@ std::string OrientationHtml(const ReportHead& head, std::span<const OrientationR
       "100%}text{font-size:10px;fill:#555}pre{overflow-x:auto;font-size:12px}</style></head><body>"
       "<h1>Orientation errors</h1><p>Total error over time; grey: not scored; gaps: truth not "
       "known.</p><pre>";
-  html += Escaped(OrientationTable(head, results)) + "</pre>";
+  html += EscapedHtml(OrientationTable(head, results)) + "</pre>";
   std::vector<std::string> trials;
   for (const OrientationResult& r : results) {
     if (std::find(trials.begin(), trials.end(), r.trial) == trials.end()) {
@@ -124,7 +108,7 @@ std::string OrientationHtml(const ReportHead& head, std::span<const OrientationR
         of_trial.push_back(&r);
       }
     }
-    html += "<h2>" + Escaped(trial) + "</h2>" + Plot(head, of_trial) + Legend(head, of_trial);
+    html += "<h2>" + EscapedHtml(trial) + "</h2>" + Plot(head, of_trial) + Legend(head, of_trial);
   }
   return html + "</body></html>\n";
 }

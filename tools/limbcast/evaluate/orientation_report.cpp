@@ -1,4 +1,5 @@
 #include "tools/limbcast/evaluate/orientation_report.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 #include <fmt/format.h>
 
@@ -136,20 +137,6 @@ nlohmann::json OrientationJson(const ReportHead& head, std::span<const Orientati
           {"trials", trials},
           {"settings", head.settings},
           {"output_leads", OutputLeads(head)}};
-}
-
-Status SaveText(const std::filesystem::path& path, const std::string& text) {
-  std::error_code failed;
-  if (path.has_parent_path()) {
-    std::filesystem::create_directories(path.parent_path(), failed);
-  }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"),
-                                                             &std::fclose);
-  if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
-      std::fflush(file.get()) != 0) {
-    return Error{ErrorCode::kUnavailable, "cannot write " + path.string()};
-  }
-  return Ok();
 }
 
 Status SaveQuaternions(const std::filesystem::path& path,

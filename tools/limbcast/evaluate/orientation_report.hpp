@@ -49,6 +49,5 @@ struct ReportHead {
 /// `w,x,y,z` and a row for each sample.
 [[nodiscard]] Status SaveQuaternions(const std::filesystem::path& path,
                                      std::span<const Eigen::Quaterniond> q_earth_sensor);
-[[nodiscard]] Status SaveText(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace limbcast::tool

@@ -1,4 +1,5 @@
 #include "tools/limbcast/evaluate/orientation_report.hpp"
+#include "tools/limbcast/report/report_text.hpp"
 
 #include <gtest/gtest.h>
 
