@@ -36,23 +36,26 @@ struct AttitudeWatchdogState {
 /// count (20 a second would alias fast shaking), fields of 20 a second. Thread-compatible.
 class AttitudeWatchdog {
  public:
-  /// @param sample    of which only usable channels are looked at.
-  /// @param q_earth_sensor       the attitude after that sample, unit.
-  /// @param free_accel_m_s2      its acceleration in E with gravity removed by that attitude.
-  /// @param reference_ref  earth field at start (0, north, up), unit length; zero: none known.
-  /// @param per_tesla      1 / its norm in tesla.
-  [[nodiscard]] AttitudeLoss Update(const GatedSample& sample,
-                                    const Eigen::Quaterniond& q_earth_sensor,
-                                    const Eigen::Vector3d& free_accel_m_s2,
-                                    const Eigen::Vector3d& reference_ref, double per_tesla) {
+  /// Takes the free acceleration of a sample; true when it is time to Look.
+  ///
+  /// @param sample           of which only usable channels are looked at.
+  /// @param free_accel_m_s2  its acceleration in E with gravity removed by the attitude after it.
+  [[nodiscard]] bool Add(const GatedSample& sample, const Eigen::Vector3d& free_accel_m_s2) {
     state_.pending_s += sample.dt_s;
     if (sample.accel_valid && free_accel_m_s2.squaredNorm() < kMostFree_m_s2 * kMostFree_m_s2) {
       state_.free_sum_m_s2 += free_accel_m_s2;
       ++state_.free_count;
     }
-    return state_.pending_s < kLookEvery_s ? AttitudeLoss::kNone
-                                           : Look(sample, q_earth_sensor, reference_ref, per_tesla);
+    return state_.pending_s >= kLookEvery_s;
   }
+
+  /// @param sample           the one that was added last.
+  /// @param q_earth_sensor   the attitude after that sample, unit.
+  /// @param reference_ref    earth field at start (0, north, up), unit length; zero: none known.
+  /// @param per_tesla        1 / its norm in tesla.
+  [[nodiscard]] AttitudeLoss Look(const GatedSample& sample,
+                                  const Eigen::Quaterniond& q_earth_sensor,
+                                  const Eigen::Vector3d& reference_ref, double per_tesla);
 
   /// The attitude was started again.
   void Clear() { state_ = {}; }
@@ -63,8 +66,6 @@ class AttitudeWatchdog {
   static constexpr double kLookEvery_s = 0.05;
   static constexpr double kMostFree_m_s2 = 200.0;  // more is an impact or nonsense
 
-  AttitudeLoss Look(const GatedSample& sample, const Eigen::Quaterniond& q_earth_sensor,
-                    const Eigen::Vector3d& reference_ref, double per_tesla);
   [[nodiscard]] bool TiltLost(double T);
   [[nodiscard]] bool HeadingLost(const Eigen::Vector3d& field_E_ref,
                                  const Eigen::Vector3d& reference_ref, double T);

@@ -106,10 +106,12 @@ void BoundedMotionFilter<Scalar>::BeginRestart() {
 // A lost attitude takes with it what was learned while it was lost.
 template <typename Scalar>
 void BoundedMotionFilter<Scalar>::CheckAttitude() {
+  if (!state_.watchdog.Add(gated_, state_.estimate.free_accel_in_earth_m_s2)) {
+    return;
+  }
   const double per_tesla = state_.reference_tesla > 0.0 ? 1.0 / state_.reference_tesla : 0.0;
-  if (state_.watchdog.Update(gated_, state_.estimate.q_earth_sensor,
-                             state_.estimate.free_accel_in_earth_m_s2, state_.reference_ref,
-                             per_tesla) != AttitudeLoss::kNone) {
+  if (state_.watchdog.Look(gated_, state_.estimate.q_earth_sensor, state_.reference_ref,
+                           per_tesla) != AttitudeLoss::kNone) {
     BeginRestart();
     state_.lost = true;
   }

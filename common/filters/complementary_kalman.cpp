@@ -123,10 +123,12 @@ void ComplementaryKalman::BeginRestart() {
 
 // A lost attitude takes with it what was learned while it was lost.
 void ComplementaryKalman::CheckAttitude(const GatedSample& sample) {
+  if (!state_.watchdog.Add(sample, state_.estimate.free_accel_in_earth_m_s2)) {
+    return;
+  }
   const Vector3d reference_ref = state_.has_field ? state_.m0_E : Vector3d::Zero().eval();
-  if (state_.watchdog.Update(sample, state_.estimate.q_earth_sensor,
-                             state_.estimate.free_accel_in_earth_m_s2, reference_ref,
-                             state_.inverse_field_tesla) == AttitudeLoss::kNone) {
+  if (state_.watchdog.Look(sample, state_.estimate.q_earth_sensor, reference_ref,
+                           state_.inverse_field_tesla) == AttitudeLoss::kNone) {
     return;
   }
   BeginRestart();

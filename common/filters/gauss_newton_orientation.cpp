@@ -131,13 +131,15 @@ void GaussNewtonOrientation::BeginRestart() {
 }
 
 void GaussNewtonOrientation::CheckAttitude() {
+  if (!state_.watchdog.Add(gated_, state_.estimate.free_accel_in_earth_m_s2)) {
+    return;
+  }
   const GaussNewtonState<double>& core = state_.core;
   const Eigen::Vector3d reference_ref = core.has_field > 0.0 && config_.rho > 0.0
                                             ? Eigen::Vector3d(0.0, core.field_north, core.field_up)
                                             : Eigen::Vector3d::Zero().eval();
-  if (state_.watchdog.Update(gated_, state_.estimate.q_earth_sensor,
-                             state_.estimate.free_accel_in_earth_m_s2, reference_ref,
-                             core.inverse_field_per_tesla) == AttitudeLoss::kNone) {
+  if (state_.watchdog.Look(gated_, state_.estimate.q_earth_sensor, reference_ref,
+                           core.inverse_field_per_tesla) == AttitudeLoss::kNone) {
     return;
   }
   BeginRestart();

@@ -33,7 +33,9 @@ GatedSample Reading(const Quaterniond& q_true, const Vector3d& accel_E = Vector3
 AttitudeLoss Update(AttitudeWatchdog& watchdog, const GatedSample& sample,
                     const Quaterniond& q_estimated) {
   const Vector3d free_m_s2 = q_estimated * sample.accel_m_s2 - Vector3d(0.0, 0.0, kGravity_m_s2);
-  return watchdog.Update(sample, q_estimated, free_m_s2, kReference, 1.0 / kField_tesla);
+  return watchdog.Add(sample, free_m_s2)
+             ? watchdog.Look(sample, q_estimated, kReference, 1.0 / kField_tesla)
+             : AttitudeLoss::kNone;
 }
 
 // Seconds until the loss is reported, or a negative number when it is not within `most_s`.
