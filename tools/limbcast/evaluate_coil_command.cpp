@@ -33,8 +33,7 @@ int EvaluateCoils(const CoilOptions& options) {
   if (!options.json.empty()) {
     const auto json = CoilJson(experiments, results, options.seed);
     if (Status saved = SaveText(options.json, json.dump(2) + "\n"); !saved) {
-      fmt::print(stderr, "limbcast evaluate coil: {}\n", saved.error().message);
-      return 2;
+      return Refuse("limbcast evaluate coil", saved.error());
     }
   }
   return 0;

@@ -17,6 +17,7 @@
 #include "tools/limbcast/evaluate/orientation_report.hpp"
 #include "tools/limbcast/evaluate/orientation_trial.hpp"
 #include "tools/limbcast/evaluate/progress_bar.hpp"
+#include "tools/limbcast/evaluate/recordings.hpp"
 #include "tools/limbcast/evaluate_coil_command.hpp"
 #include "tools/limbcast/evaluate_gaps_command.hpp"
 #include "tools/limbcast/evaluate_published_command.hpp"
@@ -33,30 +34,7 @@ struct EvaluateOptions {
   std::string json;
 };
 
-int Refuse(const Error& error) {
-  fmt::print(stderr, "limbcast evaluate: {}\n", error.message);
-  return 2;
-}
-
-Result<std::vector<std::filesystem::path>> FilesOf(const std::string& data) {
-  std::error_code failed;
-  if (!std::filesystem::is_directory(data, failed)) {
-    return std::vector<std::filesystem::path>{data};
-  }
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(data, failed)) {
-    const auto extension = entry.path().extension();
-    if (extension == ".hdf5" || extension == ".h5" || extension == ".csv") {
-      files.push_back(entry.path());
-    }
-  }
-  if (files.empty()) {
-    return Error{ErrorCode::kNotFound,
-                 "--data " + data + " holds no recording (.hdf5, .h5 or .csv)"};
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
+constexpr const char* kCommand = "limbcast evaluate";
 
 // "key=value" is for every filter, "filter.key=value" for one.
 Result<std::vector<filters::Setting>> SettingsFor(const std::string& filter,
@@ -154,14 +132,14 @@ Status SaveResults(const EvaluateOptions& options, const ReportHead& head,
 int EvaluateOrientation(const EvaluateOptions& options) {
   const auto prepared = PrepareFilters(options);
   if (!prepared) {
-    return Refuse(prepared.error());
+    return Refuse(kCommand, prepared.error());
   }
-  const auto files = FilesOf(options.data);
+  const auto files = RecordingsIn(options.data);
   if (!files) {
-    return Refuse(files.error());
+    return Refuse(kCommand, files.error());
   }
   if (const Status made = MakeFolder(options.out); !made) {
-    return Refuse(made.error());
+    return Refuse(kCommand, made.error());
   }
   std::vector<OrientationResult> results;
   const std::size_t all = files->size() * prepared->size();
@@ -169,11 +147,12 @@ int EvaluateOrientation(const EvaluateOptions& options) {
   for (const std::filesystem::path& file : *files) {
     const auto recording = gateway::ReadRecording(file);
     if (!recording) {
-      return Refuse(recording.error());
+      return Refuse(kCommand, recording.error());
     }
     const auto trials = TrialsOf(*recording, file.stem().string());
     if (trials.empty()) {
-      return Refuse({ErrorCode::kCorruptData,
+      return Refuse(kCommand,
+                    {ErrorCode::kCorruptData,
                      file.string() + " has no samples with a known orientation to compare with"});
     }
     for (const PreparedFilter& filter : *prepared) {
@@ -192,7 +171,7 @@ int EvaluateOrientation(const EvaluateOptions& options) {
   const ReportHead head{.filters = options.filters, .settings = options.settings};
   fmt::print("{}", OrientationTable(head, results));
   if (Status saved = SaveResults(options, head, results); !saved) {
-    return Refuse(saved.error());
+    return Refuse(kCommand, saved.error());
   }
   return 0;
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "services/gateway/drivers/replay/recording_reader.hpp"
 #include "tools/limbcast/evaluate/gap_report.hpp"
+#include "tools/limbcast/evaluate/recordings.hpp"
 #include "tools/limbcast/position_settings.hpp"
 #include "tools/limbcast/report/report_text.hpp"
 
@@ -24,49 +24,31 @@ struct GapOptions {
   std::string json;
 };
 
-int Refuse(const Error& error) {
-  fmt::print(stderr, "limbcast evaluate gaps: {}\n", error.message);
-  return 2;
-}
-
-std::vector<std::filesystem::path> RecordingsIn(const std::string& data) {
-  std::error_code failed;
-  if (!std::filesystem::is_directory(data, failed)) {
-    return {data};
-  }
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(data, failed)) {
-    const auto extension = entry.path().extension();
-    if (extension == ".hdf5" || extension == ".h5" || extension == ".csv") {
-      files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
+constexpr const char* kCommand = "limbcast evaluate gaps";
 
 int EvaluateGapsIn(const GapOptions& options) {
   const auto config = PositionConfigFrom(options.settings);
   if (!config) {
-    return Refuse(config.error());
+    return Refuse(kCommand, config.error());
   }
   if (options.gaps_s.empty() && options.ratios.empty()) {
-    return Refuse({ErrorCode::kInvalidArgument, "--gap or --ratio is missing, e.g. --gap 0.5,2"});
+    return Refuse(kCommand,
+                  {ErrorCode::kInvalidArgument, "--gap or --ratio is missing, e.g. --gap 0.5,2"});
   }
   const auto files = RecordingsIn(options.data);
-  if (files.empty()) {
-    return Refuse({ErrorCode::kNotFound,
-                   "--data " + options.data + " holds no recording (.hdf5, .h5 or .csv)"});
+  if (!files) {
+    return Refuse(kCommand, files.error());
   }
   std::vector<GapResult> results;
-  for (const std::filesystem::path& file : files) {
+  for (const std::filesystem::path& file : *files) {
     const auto recording = gateway::ReadRecording(file);
     if (!recording) {
-      return Refuse(recording.error());
+      return Refuse(kCommand, recording.error());
     }
     const auto trial = GapTrialOf(*recording, file.stem().string());
     if (!trial) {
-      return Refuse({ErrorCode::kCorruptData,
+      return Refuse(kCommand,
+                    {ErrorCode::kCorruptData,
                      file.string() + " has no samples with a known position to compare with"});
     }
     for (const double gap_s : options.gaps_s) {
@@ -80,7 +62,7 @@ int EvaluateGapsIn(const GapOptions& options) {
   if (!options.json.empty()) {
     if (Status saved = SaveText(options.json, GapJson(results, options.settings).dump(2) + "\n");
         !saved) {
-      return Refuse(saved.error());
+      return Refuse(kCommand, saved.error());
     }
   }
   return 0;

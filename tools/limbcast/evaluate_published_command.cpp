@@ -20,16 +20,13 @@ struct CommandOptions {
   std::string json;
 };
 
-int Refuse(const Error& error) {
-  fmt::print(stderr, "limbcast evaluate: {}\n", error.message);
-  return 2;
-}
+constexpr const char* kCommand = "limbcast evaluate";
 
 int EvaluatePublished(CommandOptions options) {
   for (const std::string& label : options.filters) {
     auto filter = FindFigureFilter(label);
     if (!filter) {
-      return Refuse(filter.error());
+      return Refuse(kCommand, filter.error());
     }
     options.published.filters.push_back(std::move(*filter));
   }
@@ -39,7 +36,8 @@ int EvaluatePublished(CommandOptions options) {
     table_one = ComputeTableOne(options.published.seed);
   }
   if (rows.empty() && table_one.empty()) {
-    return Refuse({ErrorCode::kInvalidArgument,
+    return Refuse(kCommand,
+                  {ErrorCode::kInvalidArgument,
                    "--only must be one of static, quasi-static, elbow, arm, assembly or table-1, "
                    "is '" +
                        options.published.only + "'"});
@@ -48,7 +46,7 @@ int EvaluatePublished(CommandOptions options) {
   if (!options.json.empty()) {
     const nlohmann::json json = PublishedJson(options.published, rows, table_one);
     if (Status saved = SaveText(options.json, json.dump(2) + "\n"); !saved) {
-      return Refuse(saved.error());
+      return Refuse(kCommand, saved.error());
     }
   }
   return 0;

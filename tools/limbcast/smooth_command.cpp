@@ -25,24 +25,22 @@ struct SmoothOptions {
   std::vector<std::string> settings;
 };
 
-int Refuse(const Error& error) {
-  fmt::print(stderr, "limbcast smooth: {}\n", error.message);
-  return 2;
-}
+constexpr const char* kCommand = "limbcast smooth";
 
 int Smooth(const SmoothOptions& options) {
   const auto config = PositionConfigFrom(options.settings);
   if (!config) {
-    return Refuse(config.error());
+    return Refuse(kCommand, config.error());
   }
   const auto recording = gateway::ReadRecording(options.recording);
   if (!recording) {
-    return Refuse(recording.error());
+    return Refuse(kCommand, recording.error());
   }
   const auto trial =
       GapTrialOf(*recording, std::filesystem::path(options.recording).stem().string());
   if (!trial) {
-    return Refuse({ErrorCode::kCorruptData,
+    return Refuse(kCommand,
+                  {ErrorCode::kCorruptData,
                    options.recording + " has no optical positions beside its inertial samples"});
   }
   const filters::OfflineResult result =
@@ -62,7 +60,7 @@ int Smooth(const SmoothOptions& options) {
     return 0;
   }
   if (Status saved = SaveText(options.out, csv); !saved) {
-    return Refuse(saved.error());
+    return Refuse(kCommand, saved.error());
   }
   return 0;
 }
