@@ -2,20 +2,18 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <system_error>
 
 #include "common/config/config_file.hpp"
+#include "common/config/durable_file.hpp"
 
 namespace limbcast::gateway {
 
@@ -109,16 +107,6 @@ Result<sensing::SensorCalibration> LoadFile(const std::filesystem::path& path,
   return read;
 }
 
-Status WriteThrough(const std::filesystem::path& path, const std::string& text) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"),
-                                                             &std::fclose);
-  if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
-      std::fflush(file.get()) != 0 || fsync(fileno(file.get())) != 0) {
-    return Error{ErrorCode::kUnavailable, "cannot write " + path.string()};
-  }
-  return Ok();
-}
-
 }  // namespace
 
 std::string CalibrationFileName(const std::string& serial) {
@@ -200,7 +188,7 @@ Status SaveCalibration(const std::filesystem::path& folder,
   const std::filesystem::path path = folder / CalibrationFileName(calibration.serial);
   std::filesystem::path fresh = path;
   fresh += ".new";
-  if (Status written = WriteThrough(fresh, CalibrationToToml(calibration)); !written) {
+  if (Status written = config::WriteDurably(fresh, CalibrationToToml(calibration)); !written) {
     return written;
   }
   if (const auto read = LoadFile(fresh, calibration.serial); !read) {

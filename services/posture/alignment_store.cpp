@@ -1,6 +1,5 @@
 #include "services/posture/alignment_store.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -14,6 +13,7 @@
 
 #include "common/body/default_body.hpp"
 #include "common/config/config_file.hpp"
+#include "common/config/durable_file.hpp"
 
 namespace limbcast::posture {
 namespace {
@@ -71,36 +71,6 @@ void ReadSegment(const config::Section& section, body::SegmentDefinition& segmen
   segment.p_segment_end_m = ReadVector(section, "p_segment_end_m");
 }
 
-/// Everything to disk, or an error that names the file.
-Status WriteFile(const fs::path& path, const std::string& text) {
-  const auto fail = [&](const char* what) {
-    return Error{ErrorCode::kUnavailable,
-                 fmt::format("{} {}: {}", what, path.string(), std::strerror(errno))};
-  };
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) {
-    return fail("open");
-  }
-  Status status = Ok();
-  std::size_t written = 0;
-  while (status.ok() && written < text.size()) {
-    const ssize_t n = ::write(file, text.data() + written, text.size() - written);
-    if (n < 0 && errno == EINTR) {
-      continue;
-    }
-    if (n < 0) {
-      status = fail("write");
-    } else {
-      written += static_cast<std::size_t>(n);
-    }
-  }
-  if (status.ok() && ::fsync(file) != 0) {
-    status = fail("sync");
-  }
-  ::close(file);
-  return status;
-}
-
 }  // namespace
 
 fs::path AlignmentStore::PathOf(BodyId body_id) const {
@@ -134,7 +104,7 @@ Status AlignmentStore::Save(const body::BodyDefinition& definition) const {
     }
   }
   const fs::path temporary = path.string() + ".new";
-  if (const Status written = WriteFile(temporary, Write(definition)); !written) {
+  if (const Status written = config::WriteDurably(temporary, Write(definition)); !written) {
     return written;
   }
   fs::rename(temporary, path, error);
