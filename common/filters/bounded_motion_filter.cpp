@@ -109,9 +109,10 @@ void BoundedMotionFilter<Scalar>::CheckAttitude() {
   if (!state_.watchdog.Add(gated_, state_.estimate.free_accel_in_earth_m_s2)) {
     return;
   }
-  const double per_tesla = state_.reference_tesla > 0.0 ? 1.0 / state_.reference_tesla : 0.0;
-  if (state_.watchdog.Look(gated_, state_.estimate.q_earth_sensor, state_.reference_ref,
-                           per_tesla) != AttitudeLoss::kNone) {
+  const double norm_tesla = state_.reference_tesla.norm();
+  const double per_tesla = norm_tesla > 0.0 ? 1.0 / norm_tesla : 0.0;
+  if (state_.watchdog.Look(gated_, state_.estimate.q_earth_sensor,
+                           per_tesla * state_.reference_tesla, per_tesla) != AttitudeLoss::kNone) {
     BeginRestart();
     state_.lost = true;
   }
@@ -142,10 +143,10 @@ SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart() {
   // A restart keeps the field reference it has, a lost filter goes back to that of its start.
   Eigen::Vector3d field_tesla = Eigen::Vector3d::Zero();
   if (state_.lost) {
-    field_tesla = state_.reference_tesla * state_.reference_ref;
+    field_tesla = state_.reference_tesla;
   } else if (start->has_field && core_.state().has_field == Scalar(0)) {
     field_tesla = start->mag_in_earth_tesla;
-    RememberReference(field_tesla);
+    state_.reference_tesla = ReferenceField(field_tesla);
   }
   core_.Start(estimate.q_earth_sensor.template cast<Scalar>(), field_tesla.template cast<Scalar>(),
               estimate.started && !state_.lost);
@@ -154,12 +155,6 @@ SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart() {
   state_.lost = false;
   static_cast<void>(Report());
   return SampleVerdict::kFused;
-}
-
-template <typename Scalar>
-void BoundedMotionFilter<Scalar>::RememberReference(const Eigen::Vector3d& mag_in_earth_tesla) {
-  state_.reference_tesla = mag_in_earth_tesla.norm();
-  state_.reference_ref = ReferenceField(mag_in_earth_tesla) / state_.reference_tesla;
 }
 
 // The first field that is seen says where north is: heading moves there at once.
@@ -173,7 +168,7 @@ void BoundedMotionFilter<Scalar>::AdoptField(const Eigen::Vector3d& mag_in_earth
   const Eigen::Quaterniond q_turn = math::ExpSO3({0.0, 0.0, north_rad});
   core_.TurnHeading(q_turn.template cast<Scalar>());
   core_.AdoptField((q_turn * mag_in_earth_tesla).template cast<Scalar>());
-  RememberReference(mag_in_earth_tesla);
+  state_.reference_tesla = ReferenceField(mag_in_earth_tesla);
 }
 
 // One step, or over a gap several of the nominal length with the mean rate, of which only the last

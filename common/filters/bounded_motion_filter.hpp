@@ -82,9 +82,8 @@ class BoundedMotionFilter final : public OrientationFilter {
     SampleGate gate;
     TwoVectorStart start;
     AttitudeWatchdog watchdog;
-    Eigen::Vector3d reference_ref = Eigen::Vector3d::Zero();  // of the start, unit
-    double reference_tesla = 0.0;
-    double heading_before_rad = 0.0;  // of a restart
+    Eigen::Vector3d reference_tesla = Eigen::Vector3d::Zero();  // field of the start: north, up
+    double heading_before_rad = 0.0;                            // of a restart
     bool starting = true;
     bool lost = false;  // the restart under way forgets what was learned
   };
@@ -97,7 +96,6 @@ class BoundedMotionFilter final : public OrientationFilter {
   void CheckAttitude();
   SampleVerdict UpdateStart();
   void Feed();
-  void RememberReference(const Eigen::Vector3d& mag_in_earth_tesla);
   void AdoptField(const Eigen::Vector3d& mag_in_earth_tesla);
 
   BoundedMotionCore<Scalar> core_;
