@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <system_error>
 
@@ -84,9 +83,10 @@ Status AlignmentStore::Prepare() const {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (!fs::is_directory(folder_) || ::access(folder_.c_str(), W_OK | X_OK) != 0) {
-    return Error{ErrorCode::kUnavailable,
-                 fmt::format("posture.state_dir must be a writable folder, is \"{}\" ({})",
-                             folder_.string(), error ? error.message() : std::strerror(errno))};
+    return Error{
+        ErrorCode::kUnavailable,
+        fmt::format("posture.state_dir must be a writable folder, is \"{}\" ({})", folder_.string(),
+                    error ? error.message() : std::generic_category().message(errno))};
   }
   return Ok();
 }
@@ -104,7 +104,7 @@ Status AlignmentStore::Save(const body::BodyDefinition& definition) const {
     }
   }
   const fs::path temporary = path.string() + ".new";
-  if (const Status written = config::WriteDurably(temporary, Write(definition)); !written) {
+  if (Status written = config::WriteDurably(temporary, Write(definition)); !written) {
     return written;
   }
   fs::rename(temporary, path, error);
