@@ -6,6 +6,7 @@
 
 #include "common/base/health.hpp"
 #include "common/body/body_definition.hpp"
+#include "common/body/joint_angle_frame.hpp"
 #include "common/body/segment_state.hpp"
 #include "common/body/segment_truth.hpp"
 #include "common/body/skeleton.hpp"
@@ -47,6 +48,7 @@ LIMBCAST_TOPIC(body::SegmentState, "segment_state", QosProfile::kStream, true);
 LIMBCAST_TOPIC(body::SegmentTruth, "truth", QosProfile::kStream, false);
 LIMBCAST_TOPIC(body::BodyDefinition, "body_definition", QosProfile::kState, false);
 LIMBCAST_TOPIC(body::Skeleton, "skeleton", QosProfile::kStream, true);
+LIMBCAST_TOPIC(body::JointAngleFrame, "joint_angles", QosProfile::kStream, true);
 LIMBCAST_TOPIC(roster::RosterEntry, "roster", QosProfile::kState, false);
 LIMBCAST_TOPIC(roster::SessionState, "session", QosProfile::kState, false);
 LIMBCAST_TOPIC(roster::JoinRequest, "join_request", QosProfile::kCommand, false);
@@ -62,7 +64,8 @@ using AllTopics =
     std::tuple<sensing::MargSample, sensing::MargFrame, sensing::FusedOrientation,
                sensing::CoilBurst, sensing::MarkerPosition, sensing::PositionFix,
                sensing::SensorInfo, body::SegmentState, body::SegmentTruth, body::BodyDefinition,
-               body::Skeleton, roster::RosterEntry, roster::SessionState, roster::JoinRequest,
-               roster::JoinReply, roster::Command, roster::CommandReply, ServiceHealth>;
+               body::Skeleton, body::JointAngleFrame, roster::RosterEntry, roster::SessionState,
+               roster::JoinRequest, roster::JoinReply, roster::Command, roster::CommandReply,
+               ServiceHealth>;
 
 }  // namespace limbcast::bus

@@ -51,6 +51,10 @@ struct PostureConfig {
   /// The most by which a limit is overstepped. Range: [0.001, 1].
   double joint_softness_rad = 0.1;
 
+  /// Publishes joint angles beside the skeletons, to whoever reads the topic; while nobody does
+  /// they cost nothing.
+  bool joint_angles = true;
+
   /// Folder in which alignment and dimensions of each body survive a restart. Empty: they do not.
   std::string state_dir;
 };

@@ -28,6 +28,7 @@ Status PostureService::Start() {
                     .clock = clock_,
                     .store = store_,
                     .skeletons = *skeleton_writer_,
+                    .joint_angles = joint_angle_writer_.get(),
                     .definitions = *definition_writer_,
                     .replies = *reply_writer_,
                     .counters = counters_,
@@ -52,6 +53,13 @@ Status PostureService::MakeWriters() {
   auto replies = bus_.MakeWriter<roster::CommandReply>();
   if (!replies) {
     return replies.error();
+  }
+  if (config_.joint_angles) {
+    auto joint_angles = bus_.MakeWriter<body::JointAngleFrame>();
+    if (!joint_angles) {
+      return joint_angles.error();
+    }
+    joint_angle_writer_ = std::move(*joint_angles);
   }
   skeleton_writer_ = std::move(*skeletons);
   definition_writer_ = std::move(*definitions);

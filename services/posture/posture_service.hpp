@@ -66,6 +66,7 @@ class PostureService {
 
   bool started_ = false;
   std::unique_ptr<bus::Writer<body::Skeleton>> skeleton_writer_;
+  std::unique_ptr<bus::Writer<body::JointAngleFrame>> joint_angle_writer_;  // null: not published
   std::unique_ptr<bus::Writer<body::BodyDefinition>> definition_writer_;
   std::unique_ptr<bus::Writer<roster::CommandReply>> reply_writer_;
   std::unique_ptr<PostureShared> shared_;

@@ -28,7 +28,9 @@ Count CountOf(StateFate fate) {
 }  // namespace
 
 PostureWorker::PostureWorker(const PostureShared& shared)
-    : shared_(shared), queue_(kQueueCapacity) {}
+    : shared_(shared), queue_(kQueueCapacity) {
+  angles_.joints.reserve(body::kJointCount);
+}
 
 std::optional<Time> PostureWorker::Drain() {
   while (queue_.TryPop(item_)) {
@@ -42,6 +44,9 @@ std::optional<Time> PostureWorker::Drain() {
   }
   if (std::exchange(to_flush_, false)) {
     shared_.skeletons.Flush();
+    if (shared_.joint_angles != nullptr) {
+      shared_.joint_angles->Flush();
+    }
   }
   return earliest_due_;
 }
@@ -128,6 +133,11 @@ void PostureWorker::Handle(const Gone& gone) {
   body::Skeleton skeleton;
   skeleton.body_id = gone.body_id;
   Check(shared_.skeletons.Dispose(skeleton));
+  if (shared_.joint_angles != nullptr) {
+    body::JointAngleFrame angles;
+    angles.body_id = gone.body_id;
+    Check(shared_.joint_angles->Dispose(angles));
+  }
   Check(shared_.definitions.Dispose(definition));
   CountBodies();
 }
@@ -166,6 +176,7 @@ void PostureWorker::Publish(body::Skeleton& skeleton, TickEnd end, bool live) {
     shared_.counters.Add(Count::kProbes);
     return;
   }
+  PublishJointAngles(skeleton);
   const body::StageTimes& stages = skeleton.stages;
   shared_.latencies.sensor_to_posture.Record(stages.posture_published_at - skeleton.measured_at);
   shared_.latencies.fusion_to_posture.Record(stages.posture_received_at -
@@ -180,6 +191,14 @@ void PostureWorker::Publish(body::Skeleton& skeleton, TickEnd end, bool live) {
   } else if (end == TickEnd::kOvertaken) {
     shared_.counters.Add(Count::kSkeletonsOvertaken);
   }
+}
+
+void PostureWorker::PublishJointAngles(const body::Skeleton& skeleton) {
+  if (shared_.joint_angles == nullptr || shared_.joint_angles->counters().matched == 0) {
+    return;
+  }
+  body::FillJointAngles(skeleton, angles_);
+  Check(shared_.joint_angles->Write(angles_));
 }
 
 void PostureWorker::PublishDefinition(Body& body) {

@@ -11,6 +11,7 @@
 
 #include "common/base/clock.hpp"
 #include "common/body/body_definition.hpp"
+#include "common/body/joint_angle_frame.hpp"
 #include "common/body/skeleton.hpp"
 #include "common/bus/writer.hpp"
 #include "common/roster/command.hpp"
@@ -39,6 +40,7 @@ struct PostureShared {
   const Clock& clock;
   const AlignmentStore& store;
   bus::Writer<body::Skeleton>& skeletons;
+  bus::Writer<body::JointAngleFrame>* joint_angles;  ///< null: not published
   bus::Writer<body::BodyDefinition>& definitions;
   bus::Writer<roster::CommandReply>& replies;
   PostureCounters& counters;
@@ -90,6 +92,7 @@ class PostureWorker {
   Body* Find(BodyId body_id);
   Body& MakeBody(BodyId body_id);
   void Publish(body::Skeleton& skeleton, TickEnd end, bool live);
+  void PublishJointAngles(const body::Skeleton& skeleton);
   void PublishDefinition(Body& body);
   void EmitDue(Time now);
   void CountBodies();
@@ -97,7 +100,8 @@ class PostureWorker {
 
   const PostureShared& shared_;
   runtime::BoundedQueue<Item> queue_;
-  Item item_;  // the one in work
+  Item item_;                     // the one in work
+  body::JointAngleFrame angles_;  // reused
   std::unordered_map<BodyId, Body> bodies_;
   std::optional<Time> earliest_due_;  // no body is due before; it may have become later
   bool to_flush_ = false;

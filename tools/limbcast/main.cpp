@@ -7,6 +7,7 @@
 #include "tools/limbcast/demo_command.hpp"
 #include "tools/limbcast/echo_command.hpp"
 #include "tools/limbcast/evaluate_command.hpp"
+#include "tools/limbcast/export_command.hpp"
 #include "tools/limbcast/run_command.hpp"
 #include "tools/limbcast/smooth_command.hpp"
 #include "tools/limbcast/sub_command.hpp"
@@ -24,7 +25,7 @@ int main(int argc, char** argv) {
   const std::array commands = {
       tool::AddDemoCommand(line),      tool::AddTopCommand(line),      tool::AddRunCommand(line),
       tool::AddEchoCommand(line),      tool::AddEvaluateCommand(line), tool::AddSmoothCommand(line),
-      tool::AddCalibrateCommand(line), tool::AddCoilCommand(line),
+      tool::AddCalibrateCommand(line), tool::AddCoilCommand(line),     tool::AddExportCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;

@@ -6,6 +6,7 @@ LIMBCAST_CYCLONE_ENDPOINTS(body::SegmentState);
 LIMBCAST_CYCLONE_ENDPOINTS(body::SegmentTruth);
 LIMBCAST_CYCLONE_ENDPOINTS(body::BodyDefinition);
 LIMBCAST_CYCLONE_ENDPOINTS(body::Skeleton);
+LIMBCAST_CYCLONE_ENDPOINTS(body::JointAngleFrame);
 LIMBCAST_CYCLONE_ENDPOINTS(ServiceHealth);
 
 }  // namespace limbcast::bus::cyclone

@@ -52,6 +52,7 @@ LIMBCAST_CDR(body::SegmentState);
 LIMBCAST_CDR(body::SegmentTruth);
 LIMBCAST_CDR(body::BodyDefinition);
 LIMBCAST_CDR(body::Skeleton);
+LIMBCAST_CDR(body::JointAngleFrame);
 LIMBCAST_CDR(roster::RosterEntry);
 LIMBCAST_CDR(roster::SessionState);
 LIMBCAST_CDR(roster::JoinRequest);

@@ -4,6 +4,7 @@
 
 #include "common/base/tracking.hpp"
 #include "common/base/verdict.hpp"
+#include "common/body/joint_angles.hpp"
 #include "common/body/segment.hpp"
 #include "common/body/skeleton.hpp"
 #include "common/roster/command.hpp"
@@ -27,11 +28,14 @@ inline constexpr body::Segment kLastOf<body::Segment> = body::Segment::kLeftToe;
 template <>
 inline constexpr body::SegmentStatus kLastOf<body::SegmentStatus> = body::SegmentStatus::kFilled;
 template <>
+inline constexpr body::Joint kLastOf<body::Joint> = body::Joint::kLeftWrist;
+template <>
 inline constexpr roster::Role kLastOf<roster::Role> = roster::Role::kOperator;
 template <>
 inline constexpr roster::CommandKind kLastOf<roster::CommandKind> = roster::CommandKind::kUndo;
 
 static_assert(static_cast<std::size_t>(kLastOf<SampleVerdict>) + 1 == kSampleVerdictCount);
 static_assert(static_cast<std::size_t>(kLastOf<body::Segment>) + 1 == body::kSegmentCount);
+static_assert(static_cast<std::size_t>(kLastOf<body::Joint>) + 1 == body::kJointCount);
 
 }  // namespace limbcast::bus

@@ -3,6 +3,7 @@
 namespace limbcast::bus {
 
 inline constexpr std::size_t kMaxSegments = 32;
+inline constexpr std::size_t kMaxJoints = 32;
 
 template <typename V, Of<body::SegmentDefinition> D, typename W>
 void Fields(V& field, D& d, W& w) {
@@ -56,7 +57,27 @@ void Fields(V& field, D& d, W& w) {
   field.List("segments", d.segments, w.segments(), kMaxSegments);
 }
 
+template <typename V, Of<body::JointAngle> D, typename W>
+void Fields(V& field, D& d, W& w) {
+  field("joint", d.joint, w.joint());
+  field("near_singular", d.near_singular, w.near_singular());
+  field("confidence", d.confidence, w.confidence());
+  field("angle_rad", d.angle_rad, w.angle_rad());
+}
+template <typename V, Of<body::JointAngleFrame> D, typename W>
+void KeyFields(V& field, D& d, W& w) {
+  field("body_id", d.body_id, w.body_id());
+}
+template <typename V, Of<body::JointAngleFrame> D, typename W>
+void Fields(V& field, D& d, W& w) {
+  KeyFields(field, d, w);
+  field("sequence", d.sequence, w.skeleton_number());
+  field("measured_at", d.measured_at, w.measured_at_ns());
+  field.List("joints", d.joints, w.joints(), kMaxJoints);
+}
+
 template struct Codec<body::BodyDefinition>;
 template struct Codec<body::Skeleton>;
+template struct Codec<body::JointAngleFrame>;
 
 }  // namespace limbcast::bus

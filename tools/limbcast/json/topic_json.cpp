@@ -1,6 +1,7 @@
 #include "tools/limbcast/json/topic_json.hpp"
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -225,6 +226,24 @@ json ToJson(const body::Skeleton& value) {
           {"complete", value.complete},
           {"contacts", value.contacts},
           {"segments", ListToJson(value.segments, PoseToJson)}};
+}
+
+json ToJson(const body::JointAngleFrame& value) {
+  json joints = json::object();
+  for (const body::JointAngle& angle : value.joints) {
+    json& joint = joints[std::string(body::ToString(angle.joint))];
+    const auto names = body::AngleNames(angle.joint);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      joint[std::string(names[i]) + "_rad"] =
+          NumberToJson(angle.angle_rad[static_cast<Eigen::Index>(i)]);
+    }
+    joint["confidence"] = NumberToJson(angle.confidence);
+    joint["near_singular"] = angle.near_singular;
+  }
+  return {{"body_id", value.body_id.value},
+          {"sequence", value.sequence},
+          {"measured_at", TimeToJson(value.measured_at)},
+          {"joints", std::move(joints)}};
 }
 
 json ToJson(const roster::RosterEntry& value) {

@@ -20,6 +20,7 @@ namespace limbcast::tool {
 [[nodiscard]] nlohmann::json ToJson(const body::SegmentTruth& value);
 [[nodiscard]] nlohmann::json ToJson(const body::BodyDefinition& value);
 [[nodiscard]] nlohmann::json ToJson(const body::Skeleton& value);
+[[nodiscard]] nlohmann::json ToJson(const body::JointAngleFrame& value);
 [[nodiscard]] nlohmann::json ToJson(const roster::RosterEntry& value);
 [[nodiscard]] nlohmann::json ToJson(const roster::SessionState& value);
 [[nodiscard]] nlohmann::json ToJson(const roster::JoinRequest& value);

@@ -89,6 +89,12 @@ LIMBCAST_FIELDS(body::Skeleton) {
   F(body_id), F(sequence), F(definition_revision), F(measured_at), F(stages), F(complete);
   F(contacts), LIST(segments, 32);
 }
+LIMBCAST_FIELDS(body::JointAngle) {
+  ENUM(joint, body::Joint::kLeftWrist), F(near_singular), F(confidence), F(angle_rad);
+}
+LIMBCAST_FIELDS(body::JointAngleFrame) {
+  F(body_id), F(sequence), F(measured_at), LIST(joints, 32);
+}
 LIMBCAST_FIELDS(roster::SensorAssignment) { F(sensor_uid), ENUM(segment, body::Segment::kLeftToe); }
 LIMBCAST_FIELDS(roster::RosterEntry) {
   F(body_id), F(revision), TEXT(session, 64), TEXT(person, 64), LIST(sensors, 64), F(coil_slot);

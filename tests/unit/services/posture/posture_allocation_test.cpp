@@ -35,6 +35,10 @@ TEST(PostureAllocationTest, ASteadyStreamDoesNotAllocateFromStateToSkeleton) {
   const auto reader = *outside->MakeReader<body::Skeleton>(
       {.on_sample = [&](const body::Skeleton&, const bus::SampleInfo&) { ++skeletons; },
        .on_disposed = {}});
+  std::size_t angles = 0;
+  const auto angle_reader = *outside->MakeReader<body::JointAngleFrame>(
+      {.on_sample = [&](const body::JointAngleFrame&, const bus::SampleInfo&) { ++angles; },
+       .on_disposed = {}});
   const auto rosters = *outside->MakeWriter<roster::RosterEntry>();
   const auto states = *outside->MakeWriter<body::SegmentState>();
   const std::vector<body::Segment> all(body::AllSegments().begin(), body::AllSegments().end());
@@ -61,6 +65,7 @@ TEST(PostureAllocationTest, ASteadyStreamDoesNotAllocateFromStateToSkeleton) {
   run(200);
   EXPECT_EQ(test_support::AllocationCount() - before, 0U);
   EXPECT_EQ(skeletons, 220U);
+  EXPECT_EQ(angles, 220U);
 }
 
 }  // namespace

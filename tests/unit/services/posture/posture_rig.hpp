@@ -58,6 +58,10 @@ class PostureRig {
         {.on_sample = [this](const body::Skeleton& value,
                              const bus::SampleInfo&) { skeletons.push_back(value); },
          .on_disposed = [this](const body::Skeleton& key) { gone.push_back(key.body_id); }});
+    angle_reader_ = *bus_->MakeReader<body::JointAngleFrame>(
+        {.on_sample = [this](const body::JointAngleFrame& value,
+                             const bus::SampleInfo&) { angles.push_back(value); },
+         .on_disposed = {}});
     definition_reader_ = *bus_->MakeReader<body::BodyDefinition>(
         {.on_sample = [this](const body::BodyDefinition& value,
                              const bus::SampleInfo&) { definitions.push_back(value); },
@@ -137,12 +141,14 @@ class PostureRig {
   std::shared_ptr<bus::inproc::Hub> hub_;
   std::unique_ptr<bus::Bus> bus_;
   std::unique_ptr<bus::Reader<body::Skeleton>> skeleton_reader_;
+  std::unique_ptr<bus::Reader<body::JointAngleFrame>> angle_reader_;
   std::unique_ptr<bus::Reader<body::BodyDefinition>> definition_reader_;
   std::unique_ptr<bus::Reader<roster::CommandReply>> reply_reader_;
   std::uint64_t requests_ = 0;
 
  public:
   std::vector<body::Skeleton> skeletons;
+  std::vector<body::JointAngleFrame> angles;
   std::vector<body::BodyDefinition> definitions;
   std::vector<roster::CommandReply> replies;
   std::vector<BodyId> gone;

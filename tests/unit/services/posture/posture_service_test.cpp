@@ -46,6 +46,31 @@ TEST(PostureServiceTest, TheFilterThatRunsBesideIsNotHeard) {
   EXPECT_EQ(rig.Counted(Count::kStatesReceived), 0U);
 }
 
+TEST(PostureServiceTest, JointAnglesComeWithEverySkeletonOfAMovingPerson) {
+  PostureRig rig;
+  rig.Roster(MakeRoster(kBody, {Segment::kRightUpperLeg, Segment::kRightLowerLeg}));
+  rig.Send(MakeState(kBody, Segment::kRightUpperLeg, rig.clock.Now()));
+  rig.Send(
+      MakeState(kBody, Segment::kRightLowerLeg, rig.clock.Now(), math::ExpSO3({0.0, 1.0, 0.0})));
+  ASSERT_EQ(rig.skeletons.size(), 1U);
+  ASSERT_EQ(rig.angles.size(), 1U);
+  EXPECT_EQ(rig.angles[0].body_id, kBody);
+  EXPECT_EQ(rig.angles[0].sequence, rig.skeletons[0].sequence);
+  EXPECT_EQ(rig.angles[0].measured_at, rig.skeletons[0].measured_at);
+  ASSERT_EQ(rig.angles[0].joints.size(), body::kJointCount);
+  EXPECT_NEAR(rig.angles[0].joints[body::Index(body::Joint::kRightKnee)].angle_rad.x(), 1.0, 1e-5);
+}
+
+TEST(PostureServiceTest, JointAnglesCanBeSwitchedOff) {
+  PostureConfig config;
+  config.joint_angles = false;
+  PostureRig rig(config);
+  rig.Roster(MakeRoster(kBody, kThree));
+  rig.Tick(kBody, kThree);
+  EXPECT_EQ(rig.skeletons.size(), 1U);
+  EXPECT_TRUE(rig.angles.empty());
+}
+
 TEST(PostureServiceTest, TwoBodiesDoNotDisturbEachOther) {
   PostureRig rig({}, 2);
   const BodyId other{2};

@@ -53,6 +53,7 @@ class PostureWorkerTest : public ::testing::Test {
                         .clock = clock_,
                         .store = store_,
                         .skeletons = skeletons_,
+                        .joint_angles = nullptr,
                         .definitions = definitions_,
                         .replies = replies_,
                         .counters = counters_,

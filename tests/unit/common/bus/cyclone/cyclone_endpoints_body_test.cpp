@@ -15,6 +15,9 @@ TEST(CycloneEndpointsBodyTest, BodyDefinitionCrossesUnchanged) {
 TEST(CycloneEndpointsBodyTest, SkeletonCrossesUnchanged) {
   ExpectCrossing<body::Skeleton>(Vendor::kCyclone);
 }
+TEST(CycloneEndpointsBodyTest, JointAnglesCrossUnchanged) {
+  ExpectCrossing<body::JointAngleFrame>(Vendor::kCyclone);
+}
 TEST(CycloneEndpointsBodyTest, ServiceHealthCrossesUnchanged) {
   ExpectCrossing<ServiceHealth>(Vendor::kCyclone);
 }

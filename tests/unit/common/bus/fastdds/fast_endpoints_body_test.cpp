@@ -15,6 +15,9 @@ TEST(FastEndpointsBodyTest, BodyDefinitionCrossesUnchanged) {
 TEST(FastEndpointsBodyTest, SkeletonCrossesUnchanged) {
   ExpectCrossing<body::Skeleton>(Vendor::kFast);
 }
+TEST(FastEndpointsBodyTest, JointAnglesCrossUnchanged) {
+  ExpectCrossing<body::JointAngleFrame>(Vendor::kFast);
+}
 TEST(FastEndpointsBodyTest, ServiceHealthCrossesUnchanged) {
   ExpectCrossing<ServiceHealth>(Vendor::kFast);
 }

@@ -3,7 +3,7 @@
 namespace limbcast::bus::testing {
 namespace {
 
-using PostureTopics = ::testing::Types<body::BodyDefinition, body::Skeleton>;
+using PostureTopics = ::testing::Types<body::BodyDefinition, body::Skeleton, body::JointAngleFrame>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Posture, CodecTest, PostureTopics);
 
 TEST(PostureCodecTest, MoreThan32SegmentsAreRefusedInBothDirections) {
@@ -22,6 +22,22 @@ TEST(PostureCodecTest, ABadNumberInsideAListIsRefused) {
   received.segments()[1].status(4);
   ExpectCorrupt<body::Skeleton>(received,
                                 "skeleton.status has 4 as its number, at most 3 are allowed");
+}
+
+TEST(PostureCodecTest, ALayoutOfJointAnglesIsAsTheIdlSays) {
+  body::JointAngleFrame frame;
+  frame.joints.resize(body::kJointCount);
+  wire::JointAngleFrame wire;
+  ASSERT_TRUE(Codec<body::JointAngleFrame>::Encode(frame, wire).ok());
+  EXPECT_EQ(Codec<body::JointAngleFrame>::SerializedSize(wire), 4U + 320U);
+}
+
+TEST(PostureCodecTest, AJointThatIsNoneIsRefused) {
+  wire::JointAngleFrame received;
+  received.joints().resize(1);
+  received.joints()[0].joint(15);
+  ExpectCorrupt<body::JointAngleFrame>(
+      received, "joint_angles.joint has 15 as its number, at most 14 are allowed");
 }
 
 TEST(PostureCodecTest, TextsBeyondTheirBoundsAreRefused) {

@@ -42,6 +42,20 @@ TEST(TopicJsonTest, QuaternionIsWrittenWFirst) {
   EXPECT_EQ(pose["q_earth_segment"], nlohmann::json({0.5, -0.5, 0.5, 0.5}));
 }
 
+TEST(TopicJsonTest, JointAnglesHaveTheirNames) {
+  body::JointAngleFrame frame;
+  frame.joints.push_back({.joint = body::Joint::kLeftShoulder,
+                          .near_singular = true,
+                          .confidence = 0.5F,
+                          .angle_rad = {0.25F, 1.5F, -0.5F}});
+  EXPECT_EQ(ToJson(frame)["joints"], nlohmann::json({{"left_shoulder",
+                                                      {{"elevation_plane_rad", 0.25},
+                                                       {"elevation_rad", 1.5},
+                                                       {"internal_rotation_rad", -0.5},
+                                                       {"confidence", 0.5},
+                                                       {"near_singular", true}}}}));
+}
+
 TEST(TopicJsonTest, PositionOfASegmentStateIsThereOnlyWhenItMeansSomething) {
   body::SegmentState state;
   EXPECT_FALSE(ToJson(state).contains("p_earth_sensor_m"));
