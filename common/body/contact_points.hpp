@@ -15,7 +15,7 @@ struct ContactPoint {
   Segment segment = Segment::kPelvis;
   Eigen::Vector3d p_segment_point_m = Eigen::Vector3d::Zero();
   double radius_m = 0.0;
-  /// The segments that must be measured for the point to be known against the pelvis.
+  /// The segments whose sensors must be usable for the point to be known against the pelvis.
   std::vector<Segment> measured;
   /// The segments that are on the ground when the point is, as in Skeleton::contacts.
   std::uint32_t contacts = 0;

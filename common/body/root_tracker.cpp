@@ -83,10 +83,10 @@ void RootTracker::Update(Time at, const PerSegment<SegmentMotion>& motion, BodyP
     Restart();
   }
   const double dt_s = started_ ? std::max(kShortestStep_s, ToSeconds(at - last_at_)) : 0.01;
-  const bool stands = LocatePoints(pose);
+  stands_ = LocatePoints(motion, pose);
   Eigen::Vector3d step_m = Eigen::Vector3d::Zero();
   contacts_ = 0;
-  if (stands) {
+  if (stands_) {
     Observe(dt_s, motion);
     ChooseSupport();
     step_m.head<2>() = Step();
@@ -110,14 +110,14 @@ void RootTracker::Update(Time at, const PerSegment<SegmentMotion>& motion, BodyP
   LayToes(dt_s, pose);
 }
 
-bool RootTracker::LocatePoints(const BodyPose& pose) {
+bool RootTracker::LocatePoints(const PerSegment<SegmentMotion>& motion, const BodyPose& pose) {
   bool any = false;
   lowest_m_ = std::numeric_limits<double>::max();
   for (Point& point : points_) {
     const bool was_known = point.known && started_;
     const std::size_t i = Index(point.point.segment);
     point.known = std::all_of(point.point.measured.begin(), point.point.measured.end(),
-                              [&](Segment segment) { return pose.known[Index(segment)]; });
+                              [&](Segment segment) { return motion[Index(segment)].usable; });
     if (!point.known) {
       point.contact.Reset();
       continue;
@@ -214,7 +214,8 @@ void RootTracker::Correct(double dt_s) {
   if (left_m == 0.0) {
     return;
   }
-  const double part = std::min(1.0, config_.correction_m_s * dt_s / left_m);
+  // Whose own steps are not seen is moved by the fixes alone, and must not lag behind them.
+  const double part = stands_ ? std::min(1.0, config_.correction_m_s * dt_s / left_m) : 1.0;
   const Eigen::Vector3d now_m = part * to_correct_m_;
   p_earth_root_m_ += now_m;
   ground_m_ += now_m.z();

@@ -29,10 +29,11 @@ struct RootTrackerConfig {
   double drift_of_way = 0.03;
 };
 
-/// How fast the sensor of a segment turns and accelerates; zero where it is not known.
+/// What the sensor of a segment says beside its orientation.
 struct SegmentMotion {
-  float rate_rad_s = 0.0F;
-  float accel_m_s2 = 0.0F;  ///< gravity removed
+  bool usable = false;      ///< measured, and how it sits on the segment is known
+  float rate_rad_s = 0.0F;  ///< zero where it is not known
+  float accel_m_s2 = 0.0F;  ///< gravity removed; as rate_rad_s
 };
 
 /// Where a person is, from what its segments do: the points on the ground stay where they are, and
@@ -50,7 +51,7 @@ struct SegmentMotion {
 /// Actuators A 212:25–33; the choice of the point and the blending are ours.
 ///
 /// Limits: the ground is one level plane. Feet in the air with nothing else on the ground (jumps)
-/// are taken for feet on it. Without a measured leg (upper and lower) the root stays where it is.
+/// are taken for feet on it. Without a usable leg (upper and lower) the root stays where it is.
 ///
 /// Owned by one body's tracker. After construction nothing allocates. Thread-compatible.
 class RootTracker {
@@ -96,7 +97,7 @@ class RootTracker {
     Time measured_at{};
   };
 
-  bool LocatePoints(const BodyPose& pose);
+  bool LocatePoints(const PerSegment<SegmentMotion>& motion, const BodyPose& pose);
   void Observe(double dt_s, const PerSegment<SegmentMotion>& motion);
   void ChooseSupport();
   [[nodiscard]] Eigen::Vector2d Step();
@@ -108,6 +109,7 @@ class RootTracker {
   std::vector<Point> points_;
   std::size_t support_ = 0;  // the point that is stood on
   double standing_root_m_ = 0.0;
+  bool stands_ = false;   // some leg is usable
   bool started_ = false;  // there is a last frame to go on from
   bool fixed_ = false;    // a fix has been taken
   Time last_at_{};

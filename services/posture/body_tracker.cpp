@@ -15,18 +15,6 @@ TickAssemblerConfig MakeTickConfig(const PostureConfig& config) {
           .missing_after = DurationFromSeconds(config.missing_after_s)};
 }
 
-/// Height of the root over the lowest point in the reference pose.
-double StandingRoot_m(const body::BodyDefinition& definition) {
-  const body::ForwardKinematics kinematics(definition);
-  body::BodyPose pose;
-  kinematics.Place(Eigen::Vector3d::Zero(), pose);
-  double low_m = 0.0;
-  for (const body::Segment segment : kinematics.segments()) {
-    low_m = std::min(low_m, kinematics.End_m(segment, pose).z());
-  }
-  return -low_m;
-}
-
 bool CannotBe(const StateInput& state) {
   return state.verdict == SampleVerdict::kRejectedDuplicate ||
          state.verdict == SampleVerdict::kRejectedOutOfOrder ||
@@ -42,7 +30,8 @@ BodyTracker::BodyTracker(const PostureConfig& config, body::BodyDefinition defin
       definition_(std::move(definition)),
       kinematics_(definition_),
       tracks_(body::kSegmentCount, Track(DurationFromSeconds(config.still_window_s))),
-      tick_(MakeTickConfig(config)) {
+      tick_(MakeTickConfig(config)),
+      root_(definition_) {
   skeleton_.body_id = definition_.body_id;
   skeleton_.segments.resize(definition_.segments.size());
   Rebuild();
@@ -59,7 +48,7 @@ void BodyTracker::Rebuild() {
   }
   tick_.Expect(expected);
   kinematics_ = body::ForwardKinematics(definition_);
-  standing_root_m_ = StandingRoot_m(definition_);
+  root_.SetBody(definition_);
 }
 
 bool BodyTracker::SetRoster(const roster::RosterEntry& entry) {
@@ -100,6 +89,10 @@ void BodyTracker::Redefine(body::BodyDefinition definition, Time now) {
   definition_ = std::move(definition);
   definition_changed_ = true;
   Rebuild();
+}
+
+void BodyTracker::OnPositionFix(const sensing::PositionFix& fix) {
+  root_.OnPositionFix(fix.p_earth_body_m, fix.cov_m2, fix.measured_at);
 }
 
 bool BodyTracker::TakeDefinitionChanged() { return std::exchange(definition_changed_, false); }
@@ -206,6 +199,9 @@ void BodyTracker::PoseSegments(Time at, SegmentSet measured, SegmentSet missing)
     const SegmentSet bit = BitOf(segment.segment);
     const Track& track = tracks_[i];
     pose_.known[i] = segment.tracked && track.started && (missing & bit) == 0;
+    motion_[i] = {.usable = config_.contacts && pose_.known[i] && track.aligned,
+                  .rate_rad_s = track.last.w_earth_sensor_in_sensor_rad_s.norm(),
+                  .accel_m_s2 = track.last.free_accel_in_earth_m_s2.norm()};
     if (!pose_.known[i]) {
       continue;
     }
@@ -229,7 +225,8 @@ void BodyTracker::PoseSegments(Time at, SegmentSet measured, SegmentSet missing)
   if (config_.joint_limits) {
     kinematics_.LimitJoints(config_.joint_softness_rad, pose_);
   }
-  kinematics_.Place(p_earth_root_m_.value_or(Eigen::Vector3d(0.0, 0.0, standing_root_m_)), pose_);
+  kinematics_.Place(Eigen::Vector3d::Zero(), pose_);
+  root_.Update(at, motion_, pose_);
 }
 
 void BodyTracker::NoteHeading(SegmentSet measured) {
@@ -254,6 +251,7 @@ void BodyTracker::FillSkeleton(Time at, SegmentSet measured, SegmentSet missing)
   skeleton_.definition_revision = definition_.revision;
   skeleton_.measured_at = at;
   skeleton_.stages = completed_by_;
+  skeleton_.contacts = root_.contacts();
   skeleton_.complete = tick_.expected() != 0 && measured == tick_.expected();
   for (std::size_t row = 0; row < definition_.segments.size(); ++row) {
     const body::SegmentDefinition& definition = definition_.segments[row];

@@ -10,8 +10,10 @@
 #include "common/body/alignment.hpp"
 #include "common/body/body_definition.hpp"
 #include "common/body/forward_kinematics.hpp"
+#include "common/body/root_tracker.hpp"
 #include "common/body/skeleton.hpp"
 #include "common/roster/roster.hpp"
+#include "common/sensing/position_samples.hpp"
 #include "services/posture/orientation_window.hpp"
 #include "services/posture/posture_config.hpp"
 #include "services/posture/state_input.hpp"
@@ -54,8 +56,9 @@ class BodyTracker {
   /// `now` is the host's clock.
   StateFate OnState(const StateInput& state, Time now);
 
-  /// The root of the body from outside; in force until the next.
-  void OnPositionFix(const Eigen::Vector3d& p_earth_body_m) { p_earth_root_m_ = p_earth_body_m; }
+  /// Where the body is, from outside; a finite position. Aids the root that follows from the
+  /// contacts with the ground.
+  void OnPositionFix(const sensing::PositionFix& fix);
 
   /// Emits what is due by `now`. Call when due() has come.
   void OnDue(Time now);
@@ -105,10 +108,10 @@ class BodyTracker {
   body::Skeleton skeleton_;
   body::StageTimes completed_by_;  // of the newest arrival
   SegmentSet measured_since_output_ = 0;
-  std::optional<Eigen::Vector3d> p_earth_root_m_;
-  double standing_root_m_ = 0.0;
-  std::optional<Time> next_output_at_;  // fixed rate only, once something was heard
-  Time heard_at_{};                     // host clock, of the newest arrival
+  body::RootTracker root_;
+  body::PerSegment<body::SegmentMotion> motion_{};  // as of the skeleton in work
+  std::optional<Time> next_output_at_;              // fixed rate only, once something was heard
+  Time heard_at_{};                                 // host clock, of the newest arrival
   std::uint32_t timeline_restarts_ = 0;
 };
 

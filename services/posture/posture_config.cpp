@@ -68,6 +68,7 @@ PostureConfig ReadPostureConfig(const config::Section& section) {
   config.joint_limits = section.Read("joint_limits", config.joint_limits);
   config.joint_softness_rad =
       section.Read("joint_softness_rad", config.joint_softness_rad, 0.001, 1.0);
+  config.contacts = section.Read("contacts", config.contacts);
   config.joint_angles = section.Read("joint_angles", config.joint_angles);
   config.state_dir = section.Read("state_dir", config.state_dir, kMaxPathLength);
   return config;

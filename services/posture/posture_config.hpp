@@ -51,6 +51,10 @@ struct PostureConfig {
   /// The most by which a limit is overstepped. Range: [0.001, 1].
   double joint_softness_rad = 0.1;
 
+  /// Finds out which feet are on the ground and lets the person walk over it; needs legs with
+  /// aligned sensors. False: the root stays at standing height but for position fixes.
+  bool contacts = true;
+
   /// Publishes joint angles beside the skeletons, to whoever reads the topic; while nobody does
   /// they cost nothing.
   bool joint_angles = true;

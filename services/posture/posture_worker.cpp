@@ -100,8 +100,9 @@ void PostureWorker::Handle(const StateInput& state) {
 }
 
 void PostureWorker::Handle(const sensing::PositionFix& fix) {
-  if (Body* body = Find(fix.body_id); body != nullptr && fix.p_earth_body_m.allFinite()) {
-    body->tracker->OnPositionFix(fix.p_earth_body_m);
+  if (Body* body = Find(fix.body_id);
+      body != nullptr && fix.p_earth_body_m.allFinite() && fix.cov_m2.allFinite()) {
+    body->tracker->OnPositionFix(fix);
   }
 }
 

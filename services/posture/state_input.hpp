@@ -26,6 +26,7 @@ struct StateInput {
   body::StageTimes stages;  ///< posture_received_at set
   Eigen::Quaterniond q_earth_sensor = Eigen::Quaterniond::Identity();
   Eigen::Vector3f w_earth_sensor_in_sensor_rad_s = Eigen::Vector3f::Zero();
+  Eigen::Vector3f free_accel_in_earth_m_s2 = Eigen::Vector3f::Zero();
 };
 
 [[nodiscard]] inline StateInput MakeStateInput(const body::SegmentState& state, Time received_at) {
@@ -41,7 +42,8 @@ struct StateInput {
                    .measured_at = state.measured_at,
                    .stages = state.stages,
                    .q_earth_sensor = state.q_earth_sensor,
-                   .w_earth_sensor_in_sensor_rad_s = state.w_earth_sensor_in_sensor_rad_s};
+                   .w_earth_sensor_in_sensor_rad_s = state.w_earth_sensor_in_sensor_rad_s,
+                   .free_accel_in_earth_m_s2 = state.free_accel_in_earth_m_s2};
   input.stages.posture_received_at = received_at;
   return input;
 }

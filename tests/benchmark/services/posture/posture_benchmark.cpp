@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/body/default_body.hpp"
+#include "common/body/joint_angle_frame.hpp"
 #include "common/bus/inproc/inproc_bus.hpp"
 #include "common/math/rotation.hpp"
 #include "services/posture/body_tracker.hpp"
@@ -34,6 +35,16 @@ roster::RosterEntry Roster(const std::vector<body::Segment>& sensors) {
   return entry;
 }
 
+/// The default person, every sensor aligned, so that contacts are looked for.
+body::BodyDefinition Aligned() {
+  body::BodyDefinition body = *body::MakeDefaultBody(kBody);
+  for (body::SegmentDefinition& segment : body.segments) {
+    segment.aligned = true;
+    segment.sensor_uid = SensorUid{body::Index(segment.segment) + 1};
+  }
+  return body;
+}
+
 /// One second of a person whose every segment turns about its own axis.
 std::vector<body::SegmentState> Movement(const std::vector<body::Segment>& sensors, Time start) {
   std::vector<body::SegmentState> states;
@@ -58,12 +69,20 @@ std::vector<body::SegmentState> Movement(const std::vector<body::Segment>& senso
 void BM_BodyTrackerFrame(benchmark::State& state) {
   PostureConfig config;
   config.joint_limits = state.range(1) != 0;
+  config.contacts = state.range(2) != 0;
+  const bool angles = state.range(2) != 0;
+  body::JointAngleFrame frame;
   std::size_t emitted = 0;
-  BodyTracker tracker(config, *body::MakeDefaultBody(kBody),
-                      [&](body::Skeleton& skeleton, TickEnd, bool) {
-                        benchmark::DoNotOptimize(skeleton.segments.data());
-                        ++emitted;
-                      });
+  std::uint32_t contacts = 0;
+  BodyTracker tracker(config, Aligned(), [&](body::Skeleton& skeleton, TickEnd, bool) {
+    benchmark::DoNotOptimize(skeleton.segments.data());
+    contacts |= skeleton.contacts;
+    if (angles) {
+      body::FillJointAngles(skeleton, frame);
+      benchmark::DoNotOptimize(frame.joints.data());
+    }
+    ++emitted;
+  });
   const auto sensors = Sensors(state.range(0));
   tracker.SetRoster(Roster(sensors));
   const Time start = TimeFromNanoseconds(1'700'000'000'000'000'000);
@@ -85,13 +104,18 @@ void BM_BodyTrackerFrame(benchmark::State& state) {
   if (emitted != static_cast<std::size_t>(state.iterations())) {
     state.SkipWithError("not one skeleton for each tick");
   }
+  if ((contacts != 0) != config.contacts) {
+    state.SkipWithError("contacts are not as they were asked for");
+  }
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(BM_BodyTrackerFrame)
-    ->ArgNames({"sensors", "limits"})
-    ->Args({23, 0})
-    ->Args({23, 1})
-    ->Args({15, 0})
+    ->ArgNames({"sensors", "limits", "contacts_angles"})
+    ->Args({23, 0, 0})
+    ->Args({23, 0, 1})
+    ->Args({23, 1, 1})
+    ->Args({15, 0, 0})
+    ->Args({15, 1, 1})
     ->Unit(benchmark::kMicrosecond);
 
 /// States written to skeleton read, in one thread and process: bus, queue, worker and tracker.

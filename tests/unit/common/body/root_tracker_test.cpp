@@ -74,7 +74,8 @@ class RootTrackerTest : public ::testing::Test {
     PerSegment<SegmentMotion> motion;
     for (std::size_t i = 0; i < kSegmentCount; ++i) {
       const auto& rigid = truth.segments[i];
-      motion[i] = {.rate_rad_s = static_cast<float>(rigid.w_earth_local_rad_s.norm()),
+      motion[i] = {.usable = true,
+                   .rate_rad_s = static_cast<float>(rigid.w_earth_local_rad_s.norm()),
                    .accel_m_s2 = static_cast<float>(rigid.a_earth_local_m_s2.norm())};
     }
     return motion;
@@ -170,6 +171,16 @@ TEST_F(RootTrackerTest, ToesLieFlatWhileTheHeelRises) {
   EXPECT_GT(lowest_m, -0.005) << "tips of toes that are on the ground do not sink";
 }
 
+TEST_F(RootTrackerTest, WithoutUsableLegsThePersonIsWhereTheFixesAre) {
+  for (int i = 0; i < 100; ++i) {
+    BodyPose pose;
+    const Vector3d fix_m(0.02 * i, -0.01 * i, 1.0);  // 2.2 m/s, faster than corrections may be
+    tracker_.OnPositionFix(fix_m, Matrix3d::Zero(), TimeAt(0.01 * i));
+    tracker_.Update(TimeAt(0.01 * i), {}, pose);
+    EXPECT_LT((tracker_.p_earth_root_m() - fix_m).norm(), 1e-9);
+  }
+}
+
 class RootTrackerFixTest : public RootTrackerTest {
  protected:
   SegmentErrors none_{{}};
@@ -261,7 +272,7 @@ TEST_F(RootTrackerFixTest, NoisyFixesAreAveragedAndKeepAWalkerFromDrifting) {
   EXPECT_LT(worst_step_m, 0.04) << "no jump: walking 1.5 m/s and 0.5 m/s of correction make 2 cm";
 }
 
-TEST_F(RootTrackerTest, WithoutMeasuredLegsTheRootStaysAtStandingHeight) {
+TEST_F(RootTrackerTest, WithoutUsableLegsTheRootStaysAtStandingHeight) {
   for (int i = 0; i < 10; ++i) {
     BodyPose pose;
     pose.known[0] = true;
@@ -291,6 +302,8 @@ TEST_F(RootTrackerTest, NeitherAGapNorAnotherAlignmentMovesThePerson) {
 }
 
 TEST_F(RootTrackerTest, WhoKneelsIsOnTheKnees) {
+  PerSegment<SegmentMotion> sensors;
+  sensors.fill({.usable = true});
   // Thighs upright, shanks level, soles up.
   const Quaterniond back = math::ExpSO3({0.0, std::numbers::pi / 2.0, 0.0});
   for (int i = 0; i < 10; ++i) {
@@ -304,7 +317,7 @@ TEST_F(RootTrackerTest, WhoKneelsIsOnTheKnees) {
       pose.q_earth_segment[Index(segment)] = back * back;
     }
     kinematics_.Place(Vector3d::Zero(), pose);
-    tracker_.Update(TimeAt(0.01 * i), {}, pose);
+    tracker_.Update(TimeAt(0.01 * i), sensors, pose);
     EXPECT_GE(pose.p_earth_segment_m[Index(Segment::kRightLowerLeg)].z(), 0.0);
     EXPECT_LT(pose.p_earth_segment_m[Index(Segment::kPelvis)].z(), 0.6);
   }

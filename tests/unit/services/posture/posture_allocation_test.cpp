@@ -32,8 +32,13 @@ TEST(PostureAllocationTest, ASteadyStreamDoesNotAllocateFromStateToSkeleton) {
   PostureService service(config, clock, *inside, pool);
   ASSERT_TRUE(service.Start().ok());
   std::size_t skeletons = 0;
+  std::uint32_t contacts = 0;
   const auto reader = *outside->MakeReader<body::Skeleton>(
-      {.on_sample = [&](const body::Skeleton&, const bus::SampleInfo&) { ++skeletons; },
+      {.on_sample =
+           [&](const body::Skeleton& skeleton, const bus::SampleInfo&) {
+             ++skeletons;
+             contacts = skeleton.contacts;
+           },
        .on_disposed = {}});
   std::size_t angles = 0;
   const auto angle_reader = *outside->MakeReader<body::JointAngleFrame>(
@@ -60,12 +65,19 @@ TEST(PostureAllocationTest, ASteadyStreamDoesNotAllocateFromStateToSkeleton) {
     clock.Advance(10ms);
     pool.RunDue(clock.Now());
   };
+  run(100);
+  // Aligned, so that the contacts of the feet are looked for.
+  roster::Command command;
+  command.body_id = kBody;
+  command.kind = roster::CommandKind::kReferencePose;
+  ASSERT_TRUE((*outside->MakeWriter<roster::Command>())->Write(command).ok());
   run(20);
+  ASSERT_NE(contacts, 0U);
   const std::size_t before = test_support::AllocationCount();
   run(200);
   EXPECT_EQ(test_support::AllocationCount() - before, 0U);
-  EXPECT_EQ(skeletons, 220U);
-  EXPECT_EQ(angles, 220U);
+  EXPECT_EQ(skeletons, 320U);
+  EXPECT_EQ(angles, 320U);
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ body_height_m = 1.6
 segments = ["pelvis", "t8"]
 joint_limits = true
 joint_softness_rad = 0.2
+contacts = false
 joint_angles = false
 state_dir = "/var/lib/limbcast"
 )");
@@ -55,6 +56,7 @@ state_dir = "/var/lib/limbcast"
   EXPECT_EQ(config->segments.size(), 2U);
   EXPECT_TRUE(config->joint_limits);
   EXPECT_DOUBLE_EQ(config->joint_softness_rad, 0.2);
+  EXPECT_FALSE(config->contacts);
   EXPECT_FALSE(config->joint_angles);
   EXPECT_EQ(config->state_dir, "/var/lib/limbcast");
 }
@@ -99,6 +101,7 @@ TEST(PostureConfigTest, TheShippedFileSaysTheDefaults) {
   EXPECT_EQ(shipped.segments, defaults.segments);
   EXPECT_EQ(shipped.joint_limits, defaults.joint_limits);
   EXPECT_EQ(shipped.joint_softness_rad, defaults.joint_softness_rad);
+  EXPECT_EQ(shipped.contacts, defaults.contacts);
   EXPECT_EQ(shipped.joint_angles, defaults.joint_angles);
   EXPECT_EQ(shipped.state_dir, defaults.state_dir);
 }
