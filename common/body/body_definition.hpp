@@ -23,6 +23,8 @@ struct SegmentDefinition {
   Eigen::Vector3d p_parent_segment_m = Eigen::Vector3d::Zero();
   /// From the inboard to the outboard end, in the segment's own axes.
   Eigen::Vector3d p_segment_end_m = Eigen::Vector3d::Zero();
+  /// Somebody measured its length: another body height does not change it. Does not travel.
+  bool length_measured = false;
   /// Alignment in force: q_earth_segment = Rz(heading_correction_rad) * q_earth_sensor *
   /// q_sensor_segment (Bachmann Eq. 33–34, q_offset, after the sensor's heading was corrected).
   Eigen::Quaterniond q_sensor_segment = Eigen::Quaterniond::Identity();

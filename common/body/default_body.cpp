@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace limbcast::body {
@@ -106,6 +107,108 @@ const SegmentDefinition* Find(const BodyDefinition& body, Segment segment) {
   return found == body.segments.end() ? nullptr : &*found;
 }
 
+SegmentDefinition* Find(BodyDefinition& body, Segment segment) {
+  const SegmentDefinition* found = Find(std::as_const(body), segment);
+  return found == nullptr ? nullptr
+                          : &body.segments[static_cast<std::size_t>(found - body.segments.data())];
+}
+
+Segment OtherSide(Segment segment) {
+  if (IsRight(segment)) {
+    return LeftOf(segment);
+  }
+  const auto right = static_cast<Segment>(Index(segment) - 4);
+  return Index(segment) >= 4 && IsRight(right) ? right : segment;
+}
+
+bool MeasuredOn(const BodyDefinition& body, Segment segment) {
+  const SegmentDefinition* found = Find(body, segment);
+  return found != nullptr && found->length_measured;
+}
+
+/// Makes a segment `factor` times as long. The joints at its end move along; `all_joints`: those
+/// that sit elsewhere on it do too.
+void Stretch(SegmentDefinition& segment, double factor, bool all_joints, BodyDefinition& body) {
+  const auto index = static_cast<int>(&segment - body.segments.data());
+  for (SegmentDefinition& child : body.segments) {
+    if (ParentIndex(body, child.segment) == index &&
+        (all_joints || child.p_parent_segment_m.isApprox(segment.p_segment_end_m, 1e-6))) {
+      child.p_parent_segment_m *= factor;
+    }
+  }
+  segment.p_segment_end_m *= factor;
+}
+
+/// What adds up to the height: trunk, neck, head, thighs and shanks.
+bool IsUpright(Segment segment) {
+  const Segment left = LeftOf(segment);
+  return segment <= Segment::kHead || left == Segment::kLeftUpperLeg ||
+         left == Segment::kLeftLowerLeg;
+}
+
+/// Stretches the upright segments that are not measured until the person stands `height_m` tall.
+/// The height is linear in the factor.
+Status StretchToHeight(double height_m, BodyDefinition& body) {
+  const auto stretched = [&](double factor) {
+    BodyDefinition result = body;
+    for (SegmentDefinition& segment : result.segments) {
+      if (IsUpright(segment.segment) && !segment.length_measured &&
+          !MeasuredOn(result, OtherSide(segment.segment))) {
+        Stretch(segment, factor, true, result);
+      }
+    }
+    return result;
+  };
+  const double as_it_is_m = StandingHeight_m(body);
+  const double slope_m = 10.0 * (StandingHeight_m(stretched(1.1)) - as_it_is_m);
+  const double factor = 1.0 + (height_m - as_it_is_m) / slope_m;
+  if (!(factor >= kMinStretch && factor <= kMaxStretch)) {
+    std::ostringstream text;
+    text << "the measured lengths do not fit a height of " << height_m
+         << " m: the rest would have to be " << factor
+         << " times its usual size, which must be in [" << kMinStretch << ", " << kMaxStretch
+         << "]";
+    return Invalid(text.str());
+  }
+  body = stretched(factor);
+  return Ok();
+}
+
+Status SetHeight(double height_m, BodyDefinition& body) {
+  const auto fresh = MakeDefaultBody(body.body_id, height_m);
+  if (!fresh) {
+    return fresh.error();
+  }
+  std::vector<Segment> kept;
+  kept.reserve(body.segments.size());
+  for (const SegmentDefinition& definition : body.segments) {
+    kept.push_back(definition.segment);
+  }
+  const BodyDefinition scaled = KeepSegments(*fresh, kept);
+  BodyDefinition changed = body;
+  for (SegmentDefinition& definition : changed.segments) {
+    const SegmentDefinition* source = Find(scaled, definition.segment);
+    definition.p_parent_segment_m = source->p_parent_segment_m;
+    definition.p_segment_end_m = source->p_segment_end_m;
+  }
+  const double default_m = StandingHeight_m(changed);
+  bool measured = false;
+  for (const SegmentDefinition& before : body.segments) {
+    if (before.length_measured || MeasuredOn(body, OtherSide(before.segment))) {
+      SegmentDefinition& now = *Find(changed, before.segment);
+      Stretch(now, before.p_segment_end_m.norm() / now.p_segment_end_m.norm(), false, changed);
+      measured = true;
+    }
+  }
+  if (measured) {
+    if (const Status fits = StretchToHeight(default_m, changed); !fits) {
+      return fits;
+    }
+  }
+  body = std::move(changed);
+  return Ok();
+}
+
 }  // namespace
 
 Result<BodyDefinition> MakeDefaultBody(BodyId body_id, double height_m) {
@@ -168,25 +271,11 @@ std::span<const Segment> ReducedSegments() {
 
 Status SetDimension(std::string_view name, double length_m, BodyDefinition& body) {
   if (name == "height") {
-    const auto fresh = MakeDefaultBody(body.body_id, length_m);
-    if (!fresh) {
-      return fresh.error();
-    }
-    std::vector<Segment> kept;
-    kept.reserve(body.segments.size());
-    for (const SegmentDefinition& definition : body.segments) {
-      kept.push_back(definition.segment);
-    }
-    const BodyDefinition scaled = KeepSegments(*fresh, kept);
-    for (SegmentDefinition& definition : body.segments) {
-      const SegmentDefinition* source = Find(scaled, definition.segment);
-      definition.p_parent_segment_m = source->p_parent_segment_m;
-      definition.p_segment_end_m = source->p_segment_end_m;
-    }
-    return Ok();
+    return SetHeight(length_m, body);
   }
   const auto segment = ParseSegment(name);
-  if (!segment || Find(body, *segment) == nullptr) {
+  SegmentDefinition* changed = segment ? Find(body, *segment) : nullptr;
+  if (changed == nullptr) {
     return Invalid("dimension \"" + std::string(name.substr(0, 40)) +
                    "\" is neither \"height\" nor a segment of this body");
   }
@@ -195,15 +284,11 @@ Status SetDimension(std::string_view name, double length_m, BodyDefinition& body
   if (!(length_m >= kMin_m && length_m <= kMax_m)) {
     return Invalid(InRange(name, kMin_m, kMax_m, length_m));
   }
-  const auto index = static_cast<std::size_t>(Find(body, *segment) - body.segments.data());
-  SegmentDefinition& changed = body.segments[index];
-  const Eigen::Vector3d end_before_m = changed.p_segment_end_m;
-  changed.p_segment_end_m = length_m * end_before_m.normalized();
-  for (SegmentDefinition& child : body.segments) {
-    if (ParentIndex(body, child.segment) == static_cast<int>(index) &&
-        child.p_parent_segment_m.isApprox(end_before_m, 1e-6)) {
-      child.p_parent_segment_m = changed.p_segment_end_m;
-    }
+  changed->length_measured = true;
+  Stretch(*changed, length_m / changed->p_segment_end_m.norm(), false, body);
+  SegmentDefinition* other = Find(body, OtherSide(*segment));
+  if (other != nullptr && !other->length_measured) {
+    Stretch(*other, length_m / other->p_segment_end_m.norm(), false, body);
   }
   return Ok();
 }

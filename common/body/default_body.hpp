@@ -40,8 +40,17 @@ inline constexpr double kStandingRootHeight = 0.530;
 [[nodiscard]] std::span<const Segment> ReducedSegments();
 
 /// Makes one segment `length_m` long (range: [0.01, 1.0]), or the whole person `length_m` tall for
-/// the name "height" (default proportions). The joints at the segment's outboard end move along.
-/// Fails with the name and the limit; `body` is then unchanged.
+/// the name "height". The joints at the segment's outboard end move along.
+///  - A segment: its length is measured from now on. The same segment of the other side becomes as
+///    long, unless it was measured itself.
+///  - "height": default proportions for all that was not measured; of trunk, head and legs what was
+///    not measured is then stretched or squeezed alike until the person stands that tall. Without
+///    some of the segments the height is that from the lowest to the highest point of what is
+///    there.
+/// Fails with the name and the limit, also when the measured lengths leave less than kMinStretch or
+/// more than kMaxStretch of its usual size to the rest; `body` is then unchanged.
+inline constexpr double kMinStretch = 0.7;
+inline constexpr double kMaxStretch = 1.4;
 [[nodiscard]] Status SetDimension(std::string_view name, double length_m, BodyDefinition& body);
 
 /// The first thing that is wrong: no segment, first is not the pelvis, a segment twice, a parent

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/base/expects.hpp"
 #include "common/body/alignment.hpp"
 #include "common/body/default_body.hpp"
+#include "common/body/joint_limits.hpp"
 #include "common/math/rotation.hpp"
 
 namespace limbcast::body {
@@ -13,18 +15,20 @@ namespace {
 
 constexpr std::size_t kPelvis = Index(Segment::kPelvis);
 
-/// A value inside [low, high] stays; beyond by x it comes to lie beyond by s·(1 − e^(−x/s)).
-double SoftClamp(double value, double low, double high, double softness) {
-  if (low > high) {
-    return value;
+constexpr double kRiseFrom_rad = std::numbers::pi / 6.0;
+constexpr double kRisePerElevation = 0.12;
+
+/// The joint that is limited by its angles when `segment` hangs on `parent`.
+std::optional<Joint> LimitedJoint(std::uint8_t parent, Segment segment) {
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const auto joint = static_cast<Joint>(i);
+    const JointSegments segments = SegmentsOf(joint);
+    if (segments.child == segment && segments.parent && Index(*segments.parent) == parent &&
+        LimitsOf(joint)) {
+      return joint;
+    }
   }
-  if (value > high) {
-    return high + softness * -std::expm1(-(value - high) / softness);
-  }
-  if (value < low) {
-    return low - softness * -std::expm1(-(low - value) / softness);
-  }
-  return value;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -40,6 +44,7 @@ ForwardKinematics::ForwardKinematics(const BodyDefinition& body) {
           static_cast<std::uint8_t>(body.segments[static_cast<std::size_t>(parent)].segment);
     }
     link.limited = (definition.joint_min_rad.array() <= definition.joint_max_rad.array()).any();
+    link.joint = LimitedJoint(link.parent, definition.segment);
     link.p_parent_segment_m = definition.p_parent_segment_m;
     link.p_segment_end_m = definition.p_segment_end_m;
     link.joint_min_rad = definition.joint_min_rad;
@@ -69,12 +74,33 @@ void ForwardKinematics::Fill(BodyPose& pose) const {
         kFillConfidence * std::min(pose.confidence[kT8], pose.confidence[kHead]);
     done[kNeck] = true;
   }
+  FillShoulder(Segment::kRightShoulder, Joint::kRightShoulder, pose, done);
+  FillShoulder(Segment::kLeftShoulder, Joint::kLeftShoulder, pose, done);
   for (const Link& link : links_) {
     if (!done[link.segment] && link.parent != kNone) {
       pose.q_earth_segment[link.segment] = pose.q_earth_segment[link.parent];
       pose.confidence[link.segment] = kFillConfidence * pose.confidence[link.parent];
     }
   }
+}
+
+void ForwardKinematics::FillShoulder(Segment segment, Joint joint, BodyPose& pose,
+                                     PerSegment<bool>& done) const {
+  const std::size_t shoulder = Index(segment);
+  const std::size_t arm = Index(SegmentsOf(joint).child);
+  constexpr std::size_t kT8 = Index(Segment::kT8);
+  if (!has_[shoulder] || done[shoulder] || !done[arm] || !has_[kT8] || !done[kT8]) {
+    return;
+  }
+  const double elevation_rad =
+      AnglesOf(joint, pose.q_earth_segment[kT8], pose.q_earth_segment[arm]).angle_rad[1];
+  const double rise_rad = kRisePerElevation * std::max(0.0, elevation_rad - kRiseFrom_rad);
+  const double up = segment == Segment::kLeftShoulder ? 1.0 : -1.0;  // +y, the left end, to +z
+  pose.q_earth_segment[shoulder] =
+      pose.q_earth_segment[kT8] * math::ExpSO3({up * rise_rad, 0.0, 0.0});
+  pose.confidence[shoulder] =
+      kFillConfidence * std::min(pose.confidence[kT8], pose.confidence[arm]);
+  done[shoulder] = true;
 }
 
 void ForwardKinematics::FillPelvis(BodyPose& pose, PerSegment<bool>& done) const {
@@ -125,21 +151,31 @@ void ForwardKinematics::FillTrunk(BodyPose& pose, PerSegment<bool>& done) const 
 void ForwardKinematics::LimitJoints(double softness_rad, BodyPose& pose) const {
   Expects(softness_rad > 0.0, "softness_rad > 0");
   for (const Link& link : links_) {
-    if (!link.limited || link.parent == kNone) {
+    if (link.parent == kNone || (!link.limited && !link.joint)) {
       continue;
     }
     const Eigen::Quaterniond& q_earth_parent = pose.q_earth_segment[link.parent];
-    const Eigen::Vector3d turn_rad =
-        math::LogSO3(q_earth_parent.conjugate() * pose.q_earth_segment[link.segment]);
-    Eigen::Vector3d limited_rad;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      limited_rad[axis] = SoftClamp(turn_rad[axis], link.joint_min_rad[axis],
-                                    link.joint_max_rad[axis], softness_rad);
-    }
-    if (limited_rad != turn_rad) {
-      pose.q_earth_segment[link.segment] = q_earth_parent * math::ExpSO3(limited_rad);
+    const Eigen::Quaterniond q_parent_segment =
+        q_earth_parent.conjugate() * pose.q_earth_segment[link.segment];
+    const Eigen::Quaterniond q_limited =
+        link.joint ? SoftLimited(*link.joint, q_parent_segment, softness_rad)
+                   : LimitedAsHinge(link, q_parent_segment, softness_rad);
+    if (q_limited.coeffs() != q_parent_segment.coeffs()) {
+      pose.q_earth_segment[link.segment] = q_earth_parent * q_limited;
     }
   }
+}
+
+Eigen::Quaterniond ForwardKinematics::LimitedAsHinge(const Link& link,
+                                                     const Eigen::Quaterniond& q_parent_segment,
+                                                     double softness_rad) {
+  const Eigen::Vector3d turn_rad = math::LogSO3(q_parent_segment);
+  Eigen::Vector3d limited_rad;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    limited_rad[axis] =
+        SoftClamp(turn_rad[axis], link.joint_min_rad[axis], link.joint_max_rad[axis], softness_rad);
+  }
+  return limited_rad == turn_rad ? q_parent_segment : math::ExpSO3(limited_rad);
 }
 
 void ForwardKinematics::Place(const Eigen::Vector3d& p_earth_root_m, BodyPose& pose) const {

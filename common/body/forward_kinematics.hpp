@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/body/body_definition.hpp"
+#include "common/body/joint_angles.hpp"
 #include "common/body/segment.hpp"
 
 namespace limbcast::body {
@@ -47,16 +49,20 @@ class ForwardKinematics {
   ///  - L5, L3, T12, T8 between two known ones of the trunk: interpolated, each vertebra the same
   ///    share of the turn (L5 ¼, L3 ½, T12 ¾ between pelvis and T8); above the last: as that one;
   ///  - neck: half way between T8 and a known head;
-  ///  - all others (shoulders, hands, toes, whatever lost its sensor): as their parent, so the
-  ///  joint
-  ///    is as in the reference pose.
+  ///  - shoulders of a measured arm: as T8, raised by 0.12 of what the arm is elevated beyond 30°.
+  ///  The
+  ///    rhythm of Inman, Saunders & Abbott 1944, J. Bone Joint Surg. 26:1–30; their clavicle rises
+  ///    more, but its outboard end, which is all we have, follows later measurements (ours);
+  ///  - all others (hands, feet, toes, whatever lost its sensor): as their parent, so the joint is
+  ///    as in the reference pose. (RootTracker lays toes flat while they are on the ground.)
   /// Confidence: kFillConfidence times the least of the sources; a pelvis that is guessed has 0.
   void Fill(BodyPose& pose) const;
   static constexpr float kFillConfidence = 0.8F;
 
-  /// Brings the rotation vector of each limited joint (about its parent) back to its limits,
-  /// softly: what lies beyond by x comes to lie beyond by s·(1 − e^(−x/s)). Parents first; a child
-  /// keeps its orientation in the earth frame.
+  /// Brings joints softly back to their limits: what lies beyond by x comes to lie beyond by
+  /// s·(1 − e^(−x/s)). Hips, ankles and wrists by their angles (joint_limits.hpp), the others by
+  /// the rotation vector about their parent, where the definition gives limits (knees, elbows).
+  /// Parents first; a child keeps its orientation in the earth frame.
   /// @param softness_rad  s, > 0: the most by which a limit is overstepped.
   void LimitJoints(double softness_rad, BodyPose& pose) const;
 
@@ -75,7 +81,8 @@ class ForwardKinematics {
   struct Link {
     std::uint8_t segment = 0;
     std::uint8_t parent = kNone;
-    bool limited = false;
+    bool limited = false;        // by the definition
+    std::optional<Joint> joint;  // limited by its angles
     Eigen::Vector3d p_parent_segment_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d p_segment_end_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d joint_min_rad = Eigen::Vector3d::Zero();
@@ -83,6 +90,10 @@ class ForwardKinematics {
   };
   void FillPelvis(BodyPose& pose, PerSegment<bool>& done) const;
   void FillTrunk(BodyPose& pose, PerSegment<bool>& done) const;
+  void FillShoulder(Segment segment, Joint joint, BodyPose& pose, PerSegment<bool>& done) const;
+  [[nodiscard]] static Eigen::Quaterniond LimitedAsHinge(const Link& link,
+                                                         const Eigen::Quaterniond& q_parent_segment,
+                                                         double softness_rad);
 
   std::vector<Link> links_;  // parents first
   std::vector<Segment> segments_;

@@ -39,6 +39,7 @@ std::string Write(const body::BodyDefinition& definition) {
         body::ToString(segment.segment), segment.sensor_uid.value, segment.aligned, q.w(), q.x(),
         q.y(), q.z(), segment.heading_correction_rad, Vector(segment.p_parent_segment_m),
         Vector(segment.p_segment_end_m));
+    text += segment.length_measured ? "length_measured = true\n" : "";
   }
   // Read back to know that nothing is cut off.
   return text + fmt::format("\n[end]\nsegments = {}\n", definition.segments.size());
@@ -68,6 +69,7 @@ void ReadSegment(const config::Section& section, body::SegmentDefinition& segmen
   segment.heading_correction_rad = section.Read("heading_correction_rad", 0.0, -3.15, 3.15);
   segment.p_parent_segment_m = ReadVector(section, "p_parent_segment_m");
   segment.p_segment_end_m = ReadVector(section, "p_segment_end_m");
+  segment.length_measured = section.Read("length_measured", false);
 }
 
 }  // namespace
@@ -153,6 +155,7 @@ Result<bool> AlignmentStore::Load(body::BodyDefinition& definition) const {
         into.heading_correction_rad = read.heading_correction_rad;
         into.p_parent_segment_m = read.p_parent_segment_m;
         into.p_segment_end_m = read.p_segment_end_m;
+        into.length_measured = read.length_measured;
       }
     }
   }

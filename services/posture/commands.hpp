@@ -27,7 +27,7 @@ struct CommandOutcome {
 ///  - kResetHeading: `text` "body" (default: all segments turn together by the pelvis' heading) or
 ///    "segments" (each by its own: a person without magnetometers stands straight, and headings
 ///    that drifted apart come together); `numbers` none or {heading_rad} to have afterwards.
-///  - kSetDimensions: `text` "height" or a segment, `numbers` {metres}.
+///  - kSetDimensions: `text` "height" or a segment, `numbers` {metres} (body::SetDimension).
 ///  - kUndo: puts the definition before the last accepted command back, up to kMaxUndo times.
 class BodyCommands {
  public:

@@ -11,7 +11,7 @@ float Confidence(const ConfidenceInput& input) {
   constexpr float kDegraded = 0.7F;
   constexpr float kDisturbed = 0.8F;
 
-  if (!std::isfinite(input.sigma_rad)) {
+  if (!std::isfinite(input.sigma_rad) || !std::isfinite(input.alignment_quality)) {
     return 0.0F;
   }
   const float ratio = input.sigma_rad / kSigmaOfHalf_rad;
@@ -19,7 +19,8 @@ float Confidence(const ConfidenceInput& input) {
   if (input.age > Duration::zero()) {
     confidence *= static_cast<float>(std::exp(-ToSeconds(input.age)));
   }
-  confidence *= input.aligned ? 1.0F : kNotAligned;
+  const float quality = input.aligned ? std::clamp(input.alignment_quality, 0.0F, 1.0F) : 0.0F;
+  confidence *= kNotAligned + (1.0F - kNotAligned) * quality;
   confidence *= input.degraded ? kDegraded : 1.0F;
   confidence *= input.disturbed ? kDisturbed : 1.0F;
   return std::clamp(confidence, 0.0F, 1.0F);

@@ -106,6 +106,48 @@ TEST(DefaultBodyTest, HeightKeepsAlignmentAndSegments) {
   EXPECT_NEAR(Of(body, Segment::kLeftUpperArm).p_segment_end_m.norm(), 1.9 * 0.186, 1e-12);
 }
 
+double Length(const BodyDefinition& body, Segment segment) {
+  return Of(body, segment).p_segment_end_m.norm();
+}
+
+TEST(DefaultBodyTest, TheOtherSideIsAsLongUnlessItWasMeasuredItself) {
+  BodyDefinition body = *MakeDefaultBody(BodyId{1});
+  ASSERT_TRUE(SetDimension("right_lower_leg", 0.45, body).ok());
+  EXPECT_NEAR(Length(body, Segment::kLeftLowerLeg), 0.45, 1e-12);
+  ASSERT_TRUE(SetDimension("left_lower_leg", 0.44, body).ok());
+  EXPECT_NEAR(Length(body, Segment::kRightLowerLeg), 0.45, 1e-12);
+  ASSERT_TRUE(SetDimension("right_lower_leg", 0.46, body).ok());
+  EXPECT_NEAR(Length(body, Segment::kLeftLowerLeg), 0.44, 1e-12);
+  EXPECT_NEAR(Length(body, Segment::kLeftUpperArm), 0.186 * kDefaultBodyHeight_m, 1e-12);
+}
+
+TEST(DefaultBodyTest, MeasuredLengthsStayAndTheRestFitsTheHeight) {
+  BodyDefinition body = *MakeDefaultBody(BodyId{1}, 1.75);
+  ASSERT_TRUE(SetDimension("right_lower_leg", 0.50, body).ok());  // 7 cm more than usual
+  ASSERT_TRUE(SetDimension("left_fore_arm", 0.30, body).ok());
+  ASSERT_TRUE(SetDimension("height", 1.80, body).ok());
+  EXPECT_NEAR(StandingHeight_m(body), 1.80, 1e-9);
+  EXPECT_NEAR(Length(body, Segment::kRightLowerLeg), 0.50, 1e-12);
+  EXPECT_NEAR(Length(body, Segment::kLeftLowerLeg), 0.50, 1e-12);
+  EXPECT_NEAR(Length(body, Segment::kLeftForeArm), 0.30, 1e-12);
+  EXPECT_NEAR(Length(body, Segment::kLeftUpperArm), 0.186 * 1.80, 1e-12) << "arms add no height";
+  // The rest of the height, without shanks and feet, shares what is missing alike.
+  const double rest = (1.80 - 0.50 - 0.039 * 1.80) / (1.80 * (1.0 - 0.246 - 0.039));
+  EXPECT_NEAR(Length(body, Segment::kLeftUpperLeg), rest * 0.245 * 1.80, 1e-9);
+  EXPECT_NEAR(Length(body, Segment::kHead), rest * 0.100 * 1.80, 1e-9);
+  EXPECT_TRUE(Validate(body).ok());
+}
+
+TEST(DefaultBodyTest, AHeightThatMeasuredLengthsDoNotLeaveRoomForIsRefused) {
+  BodyDefinition body = *MakeDefaultBody(BodyId{1}, 1.75);
+  ASSERT_TRUE(SetDimension("right_lower_leg", 0.90, body).ok());
+  const double before_m = StandingHeight_m(body);
+  const Status refused = SetDimension("height", 1.75, body);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().message, HasSubstr("do not fit a height of 1.75 m"));
+  EXPECT_EQ(StandingHeight_m(body), before_m) << "nothing changed";
+}
+
 TEST(DefaultBodyTest, RefusesUnknownNamesAndLengths) {
   BodyDefinition body = *MakeDefaultBody(BodyId{1});
   const Status name = SetDimension("tail", 0.3, body);

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
+#include <tuple>
 
 #include "common/body/alignment.hpp"
 #include "common/body/default_body.hpp"
+#include "common/body/joint_limits.hpp"
 #include "common/math/rotation.hpp"
 
 namespace limbcast::body {
@@ -201,6 +204,45 @@ TEST_F(ForwardKinematicsTest, AKneeBentTheWrongWayComesBackToWithinTheSoftness) 
     EXPECT_GT(limited_rad, low_rad - 0.1 - 1e-9);
     EXPECT_GE(limited_rad, bend_rad);
     last_rad = limited_rad;
+  }
+}
+
+TEST_F(ForwardKinematicsTest, AFootTurnedTooFarComesBackAndTheShankStays) {
+  BodyPose pose;
+  const Quaterniond shank = math::ExpSO3({0.1, 0.4, 0.2});
+  Q(pose, Segment::kLeftLowerLeg) = shank;
+  Q(pose, Segment::kLeftFoot) = shank * RotationOf(Joint::kLeftAnkle, {1.5, 0.1, 0.0});
+  kinematics_.LimitJoints(0.1, pose);
+  const Vector3d angle_rad =
+      AnglesOf(Joint::kLeftAnkle, shank, Q(pose, Segment::kLeftFoot)).angle_rad;
+  const double limit_rad = LimitsOf(Joint::kLeftAnkle)->max_rad.x();
+  EXPECT_GT(angle_rad.x(), limit_rad);
+  EXPECT_LT(angle_rad.x(), limit_rad + 0.1);
+  EXPECT_NEAR(angle_rad.y(), 0.1, 1e-9);
+  EXPECT_TRUE(Q(pose, Segment::kLeftLowerLeg).coeffs() == shank.coeffs());
+}
+
+TEST_F(ForwardKinematicsTest, AShoulderWithoutSensorRisesWithItsArm) {
+  for (const auto& [arm, shoulder, joint] :
+       {std::tuple{Segment::kLeftUpperArm, Segment::kLeftShoulder, Joint::kLeftShoulder},
+        std::tuple{Segment::kRightUpperArm, Segment::kRightShoulder, Joint::kRightShoulder}}) {
+    double last_m = -1.0;
+    for (const double elevation_rad : {0.0, 0.3, 0.6, 1.2, 2.4}) {
+      BodyPose pose;
+      const Quaterniond chest = RandomQuaternion(rng_);
+      Know(pose, Segment::kPelvis, chest);
+      Know(pose, Segment::kT8, chest);
+      Know(pose, arm, chest * RotationOf(joint, {0.4, elevation_rad, 0.0}));
+      kinematics_.Fill(pose);
+      kinematics_.Place(Vector3d::Zero(), pose);
+      const double beyond_rad = std::max(0.0, elevation_rad - std::numbers::pi / 6.0);
+      EXPECT_NEAR(math::AngleBetween_rad(Q(pose, shoulder), chest), 0.12 * beyond_rad, 1e-6);
+      const Vector3d end_m = chest.conjugate() * (kinematics_.End_m(shoulder, pose) -
+                                                  pose.p_earth_segment_m[Index(shoulder)]);
+      EXPECT_GE(end_m.z(), beyond_rad == 0.0 ? -1e-9 : last_m + 1e-3) << "up, on both sides";
+      EXPECT_FLOAT_EQ(pose.confidence[Index(shoulder)], ForwardKinematics::kFillConfidence);
+      last_m = end_m.z();
+    }
   }
 }
 

@@ -33,6 +33,7 @@ class AlignmentStoreTest : public ::testing::Test {
       segment.q_sensor_segment =
           math::ExpSO3({0.1 * static_cast<double>(body::Index(segment.segment)), -0.7, 1.0 / 3.0});
       segment.heading_correction_rad = -1.0 / 7.0;
+      segment.length_measured = body::Index(segment.segment) % 3 == 0;
     }
   }
   ~AlignmentStoreTest() override { fs::remove_all(folder_); }
@@ -72,6 +73,7 @@ TEST_F(AlignmentStoreTest, WhatIsSavedComesBackToTheLastBit) {
               aligned_.segments[i].heading_correction_rad);
     EXPECT_TRUE(loaded.segments[i].p_segment_end_m == aligned_.segments[i].p_segment_end_m);
     EXPECT_TRUE(loaded.segments[i].aligned);
+    EXPECT_EQ(loaded.segments[i].length_measured, aligned_.segments[i].length_measured);
   }
 }
 

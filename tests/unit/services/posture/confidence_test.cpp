@@ -25,6 +25,16 @@ TEST(ConfidenceTest, EveryBlemishLowersIt) {
   EXPECT_LT(Confidence({.sigma_rad = 0.06F}), clean);
 }
 
+TEST(ConfidenceTest, ItGrowsWithTheQualityOfTheAlignmentFromThatOfNone) {
+  const float none = Confidence({.aligned = false});
+  EXPECT_FLOAT_EQ(Confidence({.alignment_quality = 0.0F}), none);
+  EXPECT_FLOAT_EQ(Confidence({.alignment_quality = 0.5F}), 0.75F);
+  EXPECT_FLOAT_EQ(Confidence({.alignment_quality = 1.0F}), 1.0F);
+  EXPECT_FLOAT_EQ(Confidence({.aligned = false, .alignment_quality = 1.0F}), none);
+  EXPECT_FLOAT_EQ(Confidence({.alignment_quality = 7.0F}), 1.0F);
+  EXPECT_FLOAT_EQ(Confidence({.alignment_quality = std::numeric_limits<float>::quiet_NaN()}), 0.0F);
+}
+
 TEST(ConfidenceTest, AnUnknownSigmaIsAGuess) {
   EXPECT_FLOAT_EQ(Confidence({.sigma_rad = std::numeric_limits<float>::quiet_NaN()}), 0.0F);
   EXPECT_FLOAT_EQ(Confidence({.sigma_rad = std::numeric_limits<float>::infinity()}), 0.0F);
