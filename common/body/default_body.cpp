@@ -201,7 +201,7 @@ Status SetHeight(double height_m, BodyDefinition& body) {
     }
   }
   if (measured) {
-    if (const Status fits = StretchToHeight(default_m, changed); !fits) {
+    if (Status fits = StretchToHeight(default_m, changed); !fits) {
       return fits;
     }
   }

@@ -16,10 +16,10 @@ PostureService::PostureService(PostureConfig config, const Clock& clock, bus::Bu
 
 Status PostureService::Start() {
   Expects(!started_, "a service is started once");
-  if (const Status prepared = store_.Prepare(); !prepared) {
+  if (Status prepared = store_.Prepare(); !prepared) {
     return prepared;
   }
-  if (const Status made = MakeWriters(); !made) {
+  if (Status made = MakeWriters(); !made) {
     return made;
   }
   started_ = true;
