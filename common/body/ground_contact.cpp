@@ -10,7 +10,8 @@ void GroundContact::Observe(const GroundContactInput& input) {
   const double rate = input.rate_rad_s / config_.restless_rate_rad_s;
   const double accel = input.accel_m_s2 / config_.restless_accel_m_s2;
   const double gain = -std::expm1(-input.dt_s / config_.smoothing_s);
-  motion_ += gain * (rate * rate + accel * accel - motion_);
+  const double motion = rate * rate + accel * accel;
+  motion_ += gain * ((std::isfinite(motion) ? motion : 0.0) - motion_);
 }
 
 double GroundContact::unrest() const {

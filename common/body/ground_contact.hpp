@@ -29,7 +29,7 @@ struct GroundContactConfig {
 /// What the sensor and the pose say of a point in one frame.
 struct GroundContactInput {
   double height_m = 0.0;    ///< over the lowest point of the person
-  double rate_rad_s = 0.0;  ///< of the segment's sensor; 0 = not known
+  double rate_rad_s = 0.0;  ///< of the segment's sensor; 0 or not finite = not known
   double accel_m_s2 = 0.0;  ///< free acceleration of the sensor; 0 = not known
   double dt_s = 0.01;       ///< since the last frame, > 0
 };

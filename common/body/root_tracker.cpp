@@ -116,14 +116,16 @@ bool RootTracker::LocatePoints(const PerSegment<SegmentMotion>& motion, const Bo
   for (Point& point : points_) {
     const bool was_known = point.known && started_;
     const std::size_t i = Index(point.point.segment);
-    point.known = std::all_of(point.point.measured.begin(), point.point.measured.end(),
+    const Eigen::Vector3d p_R =
+        pose.p_earth_segment_m[i] + pose.q_earth_segment[i] * point.point.p_segment_point_m;
+    // What is not a number must not become part of a sum that never ends.
+    point.known = p_R.allFinite() &&
+                  std::all_of(point.point.measured.begin(), point.point.measured.end(),
                               [&](Segment segment) { return motion[Index(segment)].usable; });
     if (!point.known) {
       point.contact.Reset();
       continue;
     }
-    const Eigen::Vector3d p_R =
-        pose.p_earth_segment_m[i] + pose.q_earth_segment[i] * point.point.p_segment_point_m;
     if (!was_known) {
       point.moved_m.setZero();
       point.v_root_point_m_s.setZero();

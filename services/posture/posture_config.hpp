@@ -45,7 +45,7 @@ struct PostureConfig {
   /// Segments of the skeleton by name; the pelvis is always there. Empty: all 23.
   std::vector<body::Segment> segments;
 
-  /// Brings knees and elbows softly back to where they can bend.
+  /// Brings hips, knees, ankles, elbows and wrists softly back to where they can bend.
   bool joint_limits = false;
 
   /// The most by which a limit is overstepped. Range: [0.001, 1].

@@ -1,5 +1,5 @@
-// A real person, eight sensors on trunk and legs with orientation on board (../shared/data): does
-// the person walk over the ground, with one foot always on it?
+// A real person, eight sensors on trunk and legs with orientation on board and without a gyro's
+// readings (../shared/data): does the person walk over the ground, with one foot always on it?
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,7 +65,6 @@ std::vector<Frame> Walk(const gateway::Recording& recording, double facing_rad) 
   rig.Roster(roster);
   std::vector<Frame> frames;
   const Time start = rig.clock.Now();
-  std::map<std::uint64_t, sensing::FusedOrientation> last;
   std::size_t next = 0;
   // The first sample is the calibration pose: it is held until the window of the reference is full.
   for (int i = -50; next < recording.ticks.size(); ++i) {
@@ -83,13 +82,6 @@ std::vector<Frame> Walk(const gateway::Recording& recording, double facing_rad) 
       state.free_accel_in_earth_m_s2 =
           (state.q_earth_sensor * sample.accel_m_s2.cast<double>() - Vector3d(0.0, 0.0, 9.81))
               .cast<float>();
-      if (const auto before = last.find(sample.sensor_uid.value); i > 0 && before != last.end()) {
-        state.w_earth_sensor_in_sensor_rad_s =
-            (100.0 * math::LogSO3(before->second.q_earth_sensor.normalized().conjugate() *
-                                  state.q_earth_sensor))
-                .cast<float>();
-      }
-      last[sample.sensor_uid.value] = sample;
       rig.Send(state);
     }
     if (i == -1) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace limbcast::body {
 namespace {
@@ -87,6 +88,12 @@ TEST(GroundContactTest, UnrestFollowsWithinItsTimeConstant) {
         {.rate_rad_s = config.restless_rate_rad_s, .dt_s = config.smoothing_s / frames}, frames);
     EXPECT_NEAR(contact.unrest(), 1.0 - std::exp(-1.0), 1e-9);
   }
+}
+
+TEST(GroundContactTest, ARateThatIsNoNumberIsNotKnown) {
+  GroundContact contact = After({.rate_rad_s = std::numeric_limits<double>::quiet_NaN()}, 1);
+  contact.Decide(0.0);
+  EXPECT_DOUBLE_EQ(contact.trust(), 1.0);
 }
 
 TEST(GroundContactTest, ResetForgetsTheContact) {

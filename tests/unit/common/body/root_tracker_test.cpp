@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -299,6 +300,22 @@ TEST_F(RootTrackerTest, NeitherAGapNorAnotherAlignmentMovesThePerson) {
   tracker_.Restart();
   (void)Pose(12.01, none);
   EXPECT_LT((tracker_.p_earth_root_m() - before).head<2>().norm(), 1e-12);
+}
+
+TEST_F(RootTrackerTest, AFrameThatIsNoNumberIsForgotten) {
+  SegmentErrors none({});
+  for (int i = 0; i < 10; ++i) {
+    (void)Pose(0.01 * i, none);
+  }
+  const Vector3d before = tracker_.p_earth_root_m();
+  BodyPose broken = pose_;
+  for (Vector3d& p_m : broken.p_earth_segment_m) {
+    p_m.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  tracker_.Update(TimeAt(0.1), MotionOf(motion_.At(0.1)), broken);
+  EXPECT_EQ(tracker_.p_earth_root_m(), before);
+  (void)Pose(0.11, none);
+  EXPECT_LT((tracker_.p_earth_root_m() - before).norm(), 1e-3);
 }
 
 TEST_F(RootTrackerTest, WhoKneelsIsOnTheKnees) {
