@@ -16,6 +16,9 @@ enum class CommandKind : std::uint8_t {
   kSetDimensions = 2,  ///< posture: `text` names what, `numbers` are metres
   kSelectFilter = 3,   ///< fusion: `text` is the filter, `numbers` the segments (none = all)
   kUndo = 4,           ///< posture: take the last alignment back
+  kFunctionalCalibration = 5,  ///< posture: `text` "start" (walk now), "finish" or "cancel"
+  kResetMounting = 6,  ///< posture: the person stands in the reference pose; `text` is a segment
+  kProfile = 7,        ///< posture: `text` "save NAME" or "load NAME"
 };
 
 /// A request to a service (command topic, key client_uid).

@@ -35,6 +35,7 @@ BodyTracker::BodyTracker(const PostureConfig& config, body::BodyDefinition defin
   skeleton_.body_id = definition_.body_id;
   skeleton_.segments.resize(definition_.segments.size());
   Rebuild();
+  ChooseAutomatic(true);
 }
 
 void BodyTracker::Rebuild() {
@@ -44,6 +45,7 @@ void BodyTracker::Rebuild() {
     track.alignment =
         body::SensorAlignment(segment.q_sensor_segment, segment.heading_correction_rad);
     track.aligned = segment.aligned;
+    track.turned_rad = 0.0;
     expected |= segment.tracked ? BitOf(segment.segment) : 0;
   }
   tick_.Expect(expected);
@@ -79,6 +81,7 @@ bool BodyTracker::SetRoster(const roster::RosterEntry& entry) {
     ++definition_.revision;
     definition_changed_ = true;
     Rebuild();
+    ChooseAutomatic(true);
   }
   return changed;
 }
@@ -88,7 +91,10 @@ void BodyTracker::Redefine(body::BodyDefinition definition, Time now) {
   definition.changed_at = now;
   definition_ = std::move(definition);
   definition_changed_ = true;
+  const std::vector<Track> before = tracks_;
   Rebuild();
+  StartBlends(before);
+  ChooseAutomatic(false);
 }
 
 void BodyTracker::OnPositionFix(const sensing::PositionFix& fix) {
@@ -118,6 +124,7 @@ StateFate BodyTracker::OnState(const StateInput& state, Time now) {
   if (place == TickAssembler::Place::kNewStart) {
     ++timeline_restarts_;
     tick_.Restart();
+    calibrator_.Clear();
   }
   if (place == TickAssembler::Place::kNext && config_.output_rate_hz == 0.0) {
     Emit_(TickEnd::kOvertaken, tick_.measured_at());
@@ -131,6 +138,11 @@ StateFate BodyTracker::OnState(const StateInput& state, Time now) {
     track.last = state;
     track.started = true;
     track.window.Add(state.measured_at, state.q_earth_sensor);
+    if (automatic_ != Automatic::kNothing || calibrator_.started() ||
+        (config_.heading_tracking && state.heading == HeadingReference::kArbitrary)) {
+      calibrator_.Add(state.segment, state.measured_at, state.q_earth_sensor,
+                      state.free_accel_in_earth_m_s2);
+    }
   }
   heard_at_ = now;
   if (place == TickAssembler::Place::kLate) {
@@ -190,6 +202,9 @@ void BodyTracker::Emit_(TickEnd end, Time at) {
   FillSkeleton(at, measured, missing);
   const bool live = std::any_of(pose_.known.begin(), pose_.known.end(), std::identity());
   emit_(skeleton_, end, live);
+  shown_at_ = at;
+  TrackHeadings(measured, at);
+  CalibrateAutomatically(at);
 }
 
 void BodyTracker::PoseSegments(Time at, SegmentSet measured, SegmentSet missing) {
@@ -197,7 +212,7 @@ void BodyTracker::PoseSegments(Time at, SegmentSet measured, SegmentSet missing)
   for (const body::SegmentDefinition& segment : definition_.segments) {
     const std::size_t i = body::Index(segment.segment);
     const SegmentSet bit = BitOf(segment.segment);
-    const Track& track = tracks_[i];
+    Track& track = tracks_[i];
     pose_.known[i] = segment.tracked && track.started && (missing & bit) == 0;
     motion_[i] = {.usable = config_.contacts && pose_.known[i] && track.aligned,
                   .rate_rad_s = track.last.w_earth_sensor_in_sensor_rad_s.norm(),
@@ -213,7 +228,8 @@ void BodyTracker::PoseSegments(Time at, SegmentSet measured, SegmentSet missing)
           q_earth_sensor *
           math::ExpSO3(dt_s * track.last.w_earth_sensor_in_sensor_rad_s.cast<double>());
     }
-    pose_.q_earth_segment[i] = track.alignment.Apply(q_earth_sensor).normalized();
+    pose_.q_earth_segment[i] =
+        track.blend.Apply(track.alignment.Apply(q_earth_sensor).normalized(), at);
     pose_.confidence[i] =
         Confidence({.sigma_rad = track.last.sigma_rad,
                     .aligned = track.aligned,

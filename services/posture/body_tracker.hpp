@@ -10,10 +10,13 @@
 #include "common/body/alignment.hpp"
 #include "common/body/body_definition.hpp"
 #include "common/body/forward_kinematics.hpp"
+#include "common/body/heading_tracker.hpp"
 #include "common/body/root_tracker.hpp"
 #include "common/body/skeleton.hpp"
 #include "common/roster/roster.hpp"
 #include "common/sensing/position_samples.hpp"
+#include "services/posture/alignment_blend.hpp"
+#include "services/posture/body_calibrator.hpp"
 #include "services/posture/orientation_window.hpp"
 #include "services/posture/posture_config.hpp"
 #include "services/posture/state_input.hpp"
@@ -71,6 +74,18 @@ class BodyTracker {
   /// True once after every change of the definition: it is to be published.
   [[nodiscard]] bool TakeDefinitionChanged();
 
+  /// Puts what the heading tracker has turned since into the definition. Before a definition is
+  /// read to be changed.
+  void FoldHeadings();
+
+  /// What a functional calibration collects; commands start and finish it.
+  [[nodiscard]] BodyCalibrator& calibrator() { return calibrator_; }
+  [[nodiscard]] SegmentSet tracked() const { return tick_.expected(); }
+  /// The newest instant of the stream.
+  [[nodiscard]] Time measured_at() const { return tick_.measured_at(); }
+  /// What the automatic calibration did, once after it did something.
+  [[nodiscard]] std::optional<std::string> TakeCalibrated();
+
   /// For reference poses and heading resets.
   struct SensorView {
     bool started = false;  ///< has an orientation that is not too old
@@ -89,6 +104,8 @@ class BodyTracker {
     bool aligned = false;  // as in the definition
     body::SensorAlignment alignment;
     OrientationWindow window;
+    AlignmentBlend blend;
+    double turned_rad = 0.0;  // by the heading tracker, not yet in the definition
   };
 
   void Rebuild();
@@ -96,6 +113,14 @@ class BodyTracker {
   void PoseSegments(Time at, SegmentSet measured, SegmentSet missing);
   void FillSkeleton(Time at, SegmentSet measured, SegmentSet missing);
   void NoteHeading(SegmentSet measured);
+  void StartBlends(const std::vector<Track>& before);
+  void TrackHeadings(SegmentSet measured, Time at);
+  void CalibrateAutomatically(Time now);
+  void ChooseAutomatic(bool restored);
+  [[nodiscard]] bool StandsUpright(const body::StandingPose& pose) const;
+
+  /// What the automatic calibration waits for.
+  enum class Automatic : std::uint8_t { kNothing, kStanceAndWalk, kStance };
 
   const PostureConfig& config_;
   const Emit emit_;
@@ -111,8 +136,16 @@ class BodyTracker {
   body::RootTracker root_;
   body::PerSegment<body::SegmentMotion> motion_{};  // as of the skeleton in work
   std::optional<Time> next_output_at_;              // fixed rate only, once something was heard
+  Time shown_at_{};                                 // of the last skeleton
   Time heard_at_{};                                 // host clock, of the newest arrival
   std::uint32_t timeline_restarts_ = 0;
+  BodyCalibrator calibrator_;
+  body::HeadingTracker headings_;
+  body::PerSegment<bool> headings_use_{};
+  std::optional<Time> headings_at_;
+  double walked_s_ = 0.0;  // on end
+  Automatic automatic_ = Automatic::kNothing;
+  std::optional<std::string> calibrated_;
 };
 
 }  // namespace limbcast::posture

@@ -63,11 +63,14 @@ std::size_t CountTracked(const body::BodyDefinition& definition) {
 bool IsForPosture(roster::CommandKind kind) {
   return kind == roster::CommandKind::kReferencePose ||
          kind == roster::CommandKind::kResetHeading ||
-         kind == roster::CommandKind::kSetDimensions || kind == roster::CommandKind::kUndo;
+         kind == roster::CommandKind::kSetDimensions || kind == roster::CommandKind::kUndo ||
+         kind == roster::CommandKind::kFunctionalCalibration ||
+         kind == roster::CommandKind::kResetMounting || kind == roster::CommandKind::kProfile;
 }
 
 CommandOutcome BodyCommands::Execute(const roster::Command& command, Time now,
                                      BodyTracker& tracker) {
+  tracker.FoldHeadings();
   body::BodyDefinition definition = tracker.definition();
   CommandOutcome outcome = Refused("not a command for the posture service");
   switch (command.kind) {
@@ -89,13 +92,20 @@ CommandOutcome BodyCommands::Execute(const roster::Command& command, Time now,
         outcome = {true, fmt::format("{} is {:.3f} m", command.text, command.numbers[0])};
       }
       break;
+    case roster::CommandKind::kFunctionalCalibration:
+      outcome = Calibrate(command, tracker, definition);
+      break;
+    case roster::CommandKind::kResetMounting:
+      outcome = ResetMounting(command, tracker, definition);
+      break;
     case roster::CommandKind::kUndo:
       outcome = Undo(tracker, definition);
       break;
     case roster::CommandKind::kSelectFilter:
+    case roster::CommandKind::kProfile:  // the worker's, which has the files
       break;
   }
-  if (outcome.accepted) {
+  if (outcome.accepted && outcome.changes) {
     if (command.kind != roster::CommandKind::kUndo) {
       if (before_.size() == kMaxUndo) {
         before_.erase(before_.begin());
@@ -108,25 +118,15 @@ CommandOutcome BodyCommands::Execute(const roster::Command& command, Time now,
   return outcome;
 }
 
-CommandOutcome BodyCommands::TakeReferencePose(const roster::Command& command,
-                                               const BodyTracker& tracker,
-                                               body::BodyDefinition& definition) const {
-  const auto pose = body::ParseReferencePose(command.text.empty() ? "n_pose" : command.text);
-  if (!pose) {
-    return Refused(fmt::format("pose must be n_pose or t_pose, is \"{}\"", command.text));
-  }
-  const auto given = ReadAngle(command, "facing");
-  if (!given) {
-    return Refused(given.error().message);
-  }
-  if (CountTracked(definition) == 0) {
-    return Refused("no sensor is assigned to this body");
-  }
+/// Empty, or why the sensors that are wanted do not say how the person stands.
+std::string BodyCommands::WhyNotStill(const BodyTracker& tracker,
+                                      const body::BodyDefinition& definition,
+                                      std::optional<body::Segment> only) const {
   std::vector<std::string> not_started;
   std::vector<std::string> too_few;
   std::vector<std::string> moving;
   for (const SegmentDefinition& segment : definition.segments) {
-    if (!segment.tracked) {
+    if (!segment.tracked || (only && *only != segment.segment)) {
       continue;
     }
     const BodyTracker::SensorView view = tracker.View(segment.segment);
@@ -141,16 +141,36 @@ CommandOutcome BodyCommands::TakeReferencePose(const roster::Command& command,
     }
   }
   if (!not_started.empty()) {
-    return Refused("not started: " + List(not_started));
+    return "not started: " + List(not_started);
   }
   if (!too_few.empty()) {
-    return Refused(
-        fmt::format("less than {} s of samples: {}", config_.still_window_s / 2.0, List(too_few)));
+    return fmt::format("less than {} s of samples: {}", config_.still_window_s / 2.0,
+                       List(too_few));
   }
   if (!moving.empty()) {
-    return Refused(fmt::format("moving more than {:.1f} deg within {} s: {}",
-                               units::DegFromRad(config_.still_limit_rad), config_.still_window_s,
-                               List(moving)));
+    return fmt::format("moving more than {:.1f} deg within {} s: {}",
+                       units::DegFromRad(config_.still_limit_rad), config_.still_window_s,
+                       List(moving));
+  }
+  return "";
+}
+
+CommandOutcome BodyCommands::TakeReferencePose(const roster::Command& command,
+                                               BodyTracker& tracker,
+                                               body::BodyDefinition& definition) const {
+  const auto pose = body::ParseReferencePose(command.text.empty() ? "n_pose" : command.text);
+  if (!pose) {
+    return Refused(fmt::format("pose must be n_pose or t_pose, is \"{}\"", command.text));
+  }
+  const auto given = ReadAngle(command, "facing");
+  if (!given) {
+    return Refused(given.error().message);
+  }
+  if (CountTracked(definition) == 0) {
+    return Refused("no sensor is assigned to this body");
+  }
+  if (std::string why = WhyNotStill(tracker, definition, std::nullopt); !why.empty()) {
+    return Refused(std::move(why));
   }
 
   const SegmentDefinition& pelvis = definition.segments.front();
@@ -159,9 +179,14 @@ CommandOutcome BodyCommands::TakeReferencePose(const roster::Command& command,
     facing_rad =
         math::Heading_rad(AlignmentOf(pelvis).Apply(tracker.View(pelvis.segment).average->mean));
   }
+  body::StandingPose stance;
+  stance.pose = *pose;
   for (SegmentDefinition& segment : definition.segments) {
     if (segment.tracked) {
       body::SensorAlignment alignment = AlignmentOf(segment);
+      stance.known[body::Index(segment.segment)] = true;
+      stance.q_earth_sensor[body::Index(segment.segment)] =
+          tracker.View(segment.segment).average->mean;
       alignment.SetFromReferencePose(
           tracker.View(segment.segment).average->mean,
           body::HeadingRotation(facing_rad) * body::ReferenceOrientation(*pose, segment.segment));
@@ -169,8 +194,70 @@ CommandOutcome BodyCommands::TakeReferencePose(const roster::Command& command,
       segment.aligned = true;
     }
   }
+  tracker.calibrator().NoteStance(stance, tracker.measured_at());
   return {true, fmt::format("aligned {} segments, {}, facing {:.1f} deg", CountTracked(definition),
                             body::ToString(*pose), units::DegFromRad(facing_rad))};
+}
+
+CommandOutcome BodyCommands::ResetMounting(const roster::Command& command,
+                                           const BodyTracker& tracker,
+                                           body::BodyDefinition& definition) const {
+  std::optional<body::Segment> only;
+  if (!command.text.empty()) {
+    only = body::ParseSegment(command.text);
+    const auto found = std::find_if(definition.segments.begin(), definition.segments.end(),
+                                    [&](const auto& s) { return only && s.segment == *only; });
+    if (found == definition.segments.end() || !found->tracked) {
+      return Refused(fmt::format("no sensor on a segment \"{}\"", command.text));
+    }
+  }
+  if (std::string why = WhyNotStill(tracker, definition, only); !why.empty()) {
+    return Refused(std::move(why));
+  }
+  const SegmentDefinition& pelvis = definition.segments.front();
+  const BodyTracker::SensorView pelvis_view = tracker.View(pelvis.segment);
+  if (!pelvis.aligned || !pelvis_view.started) {
+    return Refused("the pelvis is not aligned: take a reference pose");
+  }
+  const double facing_rad =
+      math::Heading_rad(AlignmentOf(pelvis).Apply(pelvis_view.q_earth_sensor));
+  std::size_t count = 0;
+  for (SegmentDefinition& segment : definition.segments) {
+    if (!segment.tracked || (only && *only != segment.segment)) {
+      continue;
+    }
+    body::SensorAlignment alignment = AlignmentOf(segment);
+    alignment.SetFromReferencePose(tracker.View(segment.segment).average->mean,
+                                   body::HeadingRotation(facing_rad));
+    segment.q_sensor_segment = alignment.q_sensor_segment();
+    segment.aligned = true;
+    ++count;
+  }
+  return {true, fmt::format("mounting of {} segment(s) taken anew", count)};
+}
+
+CommandOutcome BodyCommands::Calibrate(const roster::Command& command, BodyTracker& tracker,
+                                       body::BodyDefinition& definition) const {
+  BodyCalibrator& calibrator = tracker.calibrator();
+  if (command.text == "start") {
+    if (const Status started = calibrator.Start(tracker.measured_at()); !started) {
+      return Refused(started.error().message);
+    }
+    return {.accepted = true, .message = "walk now, straight on as far as possible", .changes = false};
+  }
+  if (command.text == "cancel") {
+    calibrator.Cancel();
+    return {.accepted = true, .message = "calibration given up", .changes = false};
+  }
+  if (command.text != "finish") {
+    return Refused(fmt::format("calibration must be start, finish or cancel, is \"{}\"", command.text));
+  }
+  const auto outcome = calibrator.Finish(
+      tracker.tracked(), 0.0, definition.heading != HeadingReference::kArbitrary);
+  if (!outcome) {
+    return Refused(outcome.error().message);
+  }
+  return {true, ApplyFit(*outcome, definition)};
 }
 
 CommandOutcome BodyCommands::ResetHeading(const roster::Command& command,

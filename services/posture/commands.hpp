@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace limbcast::posture {
 struct CommandOutcome {
   bool accepted = false;
   std::string message;  ///< what was done, or why not; at most 255 characters
+  bool changes = true;  ///< when accepted: the definition is another one now
 };
 
 /// True for the kinds that the posture service answers.
@@ -27,6 +29,10 @@ struct CommandOutcome {
 ///  - kResetHeading: `text` "body" (default: all segments turn together by the pelvis' heading) or
 ///    "segments" (each by its own: a person without magnetometers stands straight, and headings
 ///    that drifted apart come together); `numbers` none or {heading_rad} to have afterwards.
+///  - kFunctionalCalibration: `text` "start" after a reference pose, "finish" after the walk, or
+///    "cancel"; see BodyCalibrator. Finish aligns what the walk supports, or nothing.
+///  - kResetMounting: as kReferencePose in the N-pose for the segment that `text` names (default:
+///    all), for a strap that slipped; the others, and the heading of the body, stay.
 ///  - kSetDimensions: `text` "height" or a segment, `numbers` {metres} (body::SetDimension).
 ///  - kUndo: puts the definition before the last accepted command back, up to kMaxUndo times.
 class BodyCommands {
@@ -39,8 +45,15 @@ class BodyCommands {
   static constexpr std::size_t kMaxUndo = 8;
 
  private:
-  CommandOutcome TakeReferencePose(const roster::Command& command, const BodyTracker& tracker,
+  CommandOutcome TakeReferencePose(const roster::Command& command, BodyTracker& tracker,
                                    body::BodyDefinition& definition) const;
+  CommandOutcome ResetMounting(const roster::Command& command, const BodyTracker& tracker,
+                               body::BodyDefinition& definition) const;
+  CommandOutcome Calibrate(const roster::Command& command, BodyTracker& tracker,
+                           body::BodyDefinition& definition) const;
+  [[nodiscard]] std::string WhyNotStill(const BodyTracker& tracker,
+                                        const body::BodyDefinition& definition,
+                                        std::optional<body::Segment> only) const;
   CommandOutcome ResetHeading(const roster::Command& command, const BodyTracker& tracker,
                               body::BodyDefinition& definition) const;
   CommandOutcome Undo(const BodyTracker& tracker, body::BodyDefinition& definition);

@@ -28,7 +28,8 @@ Status Validate(const PostureConfig& config) {
         InRange("still_limit_rad", config.still_limit_rad, 1e-6, 1.0),
         InRange("body_height_m", config.body_height_m, body::kMinBodyHeight_m,
                 body::kMaxBodyHeight_m),
-        InRange("joint_softness_rad", config.joint_softness_rad, 0.001, 1.0)}) {
+        InRange("joint_softness_rad", config.joint_softness_rad, 0.001, 1.0),
+        InRange("blend_s", config.blend_s, 0.0, 5.0)}) {
     if (!status) {
       return status;
     }
@@ -70,6 +71,10 @@ PostureConfig ReadPostureConfig(const config::Section& section) {
       section.Read("joint_softness_rad", config.joint_softness_rad, 0.001, 1.0);
   config.contacts = section.Read("contacts", config.contacts);
   config.joint_angles = section.Read("joint_angles", config.joint_angles);
+  config.blend_s = section.Read("blend_s", config.blend_s, 0.0, 5.0);
+  config.automatic_calibration =
+      section.Read("automatic_calibration", config.automatic_calibration);
+  config.heading_tracking = section.Read("heading_tracking", config.heading_tracking);
   config.state_dir = section.Read("state_dir", config.state_dir, kMaxPathLength);
   return config;
 }

@@ -59,6 +59,18 @@ struct PostureConfig {
   /// they cost nothing.
   bool joint_angles = true;
 
+  /// A new alignment takes this long to come into force, so that nothing jumps; only what was
+  /// aligned before. Range: [0, 5].
+  double blend_s = 0.4;
+
+  /// Calibrates a body by itself: as soon as it has stood still and then walked 15 s. A body whose
+  /// alignment was restored only has its headings set, when it stands upright and still (sensors
+  /// without magnetometer).
+  bool automatic_calibration = false;
+
+  /// Keeps headings of sensors without magnetometer together while the person walks.
+  bool heading_tracking = true;
+
   /// Folder in which alignment and dimensions of each body survive a restart. Empty: they do not.
   std::string state_dir;
 };

@@ -111,7 +111,7 @@ LIMBCAST_FIELDS(roster::JoinReply) {
   F(client_uid), F(request_id), F(accepted), F(body_id), TEXT(partition, 64), TEXT(message, 255);
 }
 LIMBCAST_FIELDS(roster::Command) {
-  F(client_uid), F(request_id), F(body_id), ENUM(kind, roster::CommandKind::kUndo);
+  F(client_uid), F(request_id), F(body_id), ENUM(kind, roster::CommandKind::kProfile);
   TEXT(text, 64), LIST(numbers, 64);
 }
 LIMBCAST_FIELDS(roster::CommandReply) {
