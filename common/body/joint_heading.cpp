@@ -150,7 +150,8 @@ std::optional<JointHeading> FitJointHeading(const SmoothMotion& first, const Smo
   heading.p_sensor2_joint_m = solution.levers_m.tail<3>();
   heading.misfit = std::sqrt(solution.sse / worst);
   const double together = std::max(1.0, kCorrelation_s * rate_hz);
-  const double var_m2_s4 = solution.sse / static_cast<double>(3 * count);
+  const double var_m2_s4 = solution.sse / static_cast<double>(3 * count) +
+                           kAccelError_m_s2 * kAccelError_m_s2;
   heading.sigma_rad = std::min(kPi, std::sqrt(2.0 * var_m2_s4 * together / curvature));
   return heading;
 }

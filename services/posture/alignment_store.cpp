@@ -72,57 +72,8 @@ void ReadSegment(const config::Section& section, body::SegmentDefinition& segmen
   segment.length_measured = section.Read("length_measured", false);
 }
 
-}  // namespace
-
-fs::path AlignmentStore::PathOf(BodyId body_id) const {
-  return folder_ / fmt::format("body_{}.toml", body_id.value);
-}
-
-Status AlignmentStore::Prepare() const {
-  if (folder_.empty()) {
-    return Ok();
-  }
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (!fs::is_directory(folder_) || ::access(folder_.c_str(), W_OK | X_OK) != 0) {
-    return Error{
-        ErrorCode::kUnavailable,
-        fmt::format("posture.state_dir must be a writable folder, is \"{}\" ({})", folder_.string(),
-                    error ? error.message() : std::generic_category().message(errno))};
-  }
-  return Ok();
-}
-
-Status AlignmentStore::Save(const body::BodyDefinition& definition) const {
-  if (folder_.empty()) {
-    return Ok();
-  }
-  const fs::path path = PathOf(definition.body_id);
-  std::error_code error;
-  if (fs::exists(path, error)) {
-    body::BodyDefinition scratch = definition;
-    if (!Load(scratch)) {
-      fs::rename(path, path.string() + ".refused", error);
-    }
-  }
-  const fs::path temporary = path.string() + ".new";
-  if (Status written = config::WriteDurably(temporary, Write(definition)); !written) {
-    return written;
-  }
-  fs::rename(temporary, path, error);
-  if (error) {
-    return Error{ErrorCode::kUnavailable,
-                 fmt::format("rename to {}: {}", path.string(), error.message())};
-  }
-  return Ok();
-}
-
-Result<bool> AlignmentStore::Load(body::BodyDefinition& definition) const {
-  const fs::path path = PathOf(definition.body_id);
-  std::error_code error;
-  if (folder_.empty() || !fs::exists(path, error)) {
-    return false;
-  }
+/// Puts what `path` holds over a definition; `any_body`: whoever's it is.
+Status ReadDefinition(const fs::path& path, bool any_body, body::BodyDefinition& definition) {
   const auto file = config::ConfigFile::Load(path);
   if (!file) {
     return Error{ErrorCode::kCorruptData, file.error().message};
@@ -133,7 +84,8 @@ Result<bool> AlignmentStore::Load(body::BodyDefinition& definition) const {
                  fmt::format("{}: cut off, [end] is missing", path.string())};
   }
   (void)root.Read("version", 0, kVersion, kVersion);
-  if (root.Read("body_id", definition.body_id.value, 0U, UINT32_MAX) != definition.body_id.value) {
+  if (root.Read("body_id", definition.body_id.value, 0U, UINT32_MAX) != definition.body_id.value &&
+      !any_body) {
     root.Fail("body_id", fmt::format("must be {}", definition.body_id.value));
   }
   body::BodyDefinition loaded = definition;
@@ -171,7 +123,128 @@ Result<bool> AlignmentStore::Load(body::BodyDefinition& definition) const {
                  fmt::format("{}: {}", path.string(), valid.error().message)};
   }
   definition = std::move(loaded);
+  return Ok();
+}
+
+Status CheckName(std::string_view name) {
+  constexpr std::size_t kMaxName = 48;
+  if (name.empty() || name.size() > kMaxName) {
+    return Error{ErrorCode::kInvalidArgument,
+                 fmt::format("a profile's name must have 1 to {} characters, has {}", kMaxName,
+                             name.size())};
+  }
+  return Ok();
+}
+
+}  // namespace
+
+fs::path AlignmentStore::PathOf(BodyId body_id) const {
+  return folder_ / fmt::format("body_{}.toml", body_id.value);
+}
+
+Status AlignmentStore::Prepare() const {
+  if (folder_.empty()) {
+    return Ok();
+  }
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (!fs::is_directory(folder_) || ::access(folder_.c_str(), W_OK | X_OK) != 0) {
+    return Error{
+        ErrorCode::kUnavailable,
+        fmt::format("posture.state_dir must be a writable folder, is \"{}\" ({})", folder_.string(),
+                    error ? error.message() : std::generic_category().message(errno))};
+  }
+  return Ok();
+}
+
+Status AlignmentStore::Save(const body::BodyDefinition& definition) const {
+  return folder_.empty() ? Ok() : Replace(PathOf(definition.body_id), definition);
+}
+
+Status AlignmentStore::Replace(const fs::path& path, const body::BodyDefinition& definition) const {
+  std::error_code error;
+  if (fs::exists(path, error)) {
+    body::BodyDefinition scratch = definition;
+    if (!ReadDefinition(path, true, scratch)) {
+      fs::rename(path, path.string() + ".refused", error);
+    }
+  }
+  const fs::path temporary = path.string() + ".new";
+  if (Status written = config::WriteDurably(temporary, Write(definition)); !written) {
+    return written;
+  }
+  fs::rename(temporary, path, error);
+  if (error) {
+    return Error{ErrorCode::kUnavailable,
+                 fmt::format("rename to {}: {}", path.string(), error.message())};
+  }
+  return Ok();
+}
+
+Result<bool> AlignmentStore::Load(body::BodyDefinition& definition) const {
+  const fs::path path = PathOf(definition.body_id);
+  std::error_code error;
+  if (folder_.empty() || !fs::exists(path, error)) {
+    return false;
+  }
+  if (const Status read = ReadDefinition(path, false, definition); !read) {
+    return read.error();
+  }
   return true;
+}
+
+fs::path AlignmentStore::ProfilePathOf(std::string_view name) const {
+  std::string file = "profile_";
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                       (c >= '0' && c <= '9') || c == '-' || c == '_';
+    file += plain ? c : '_';
+  }
+  return folder_ / (file + ".toml");
+}
+
+bool AlignmentStore::HasProfile(std::string_view name) const {
+  std::error_code error;
+  return !folder_.empty() && CheckName(name).ok() && fs::exists(ProfilePathOf(name), error);
+}
+
+Status AlignmentStore::SaveProfile(std::string_view name,
+                                   const body::BodyDefinition& definition) const {
+  if (Status named = CheckName(name); !named) {
+    return named;
+  }
+  if (folder_.empty()) {
+    return Error{ErrorCode::kUnavailable, "posture.state_dir is empty: nothing is kept"};
+  }
+  return Replace(ProfilePathOf(name), definition);
+}
+
+Result<std::size_t> AlignmentStore::LoadProfile(std::string_view name,
+                                                body::BodyDefinition& definition) const {
+  if (const Status named = CheckName(name); !named) {
+    return named.error();
+  }
+  if (!HasProfile(name)) {
+    return Error{ErrorCode::kNotFound, fmt::format("no profile \"{}\"", name)};
+  }
+  body::BodyDefinition loaded = definition;
+  if (const Status read = ReadDefinition(ProfilePathOf(name), true, loaded); !read) {
+    return read.error();
+  }
+  std::size_t aligned = 0;
+  for (std::size_t row = 0; row < definition.segments.size(); ++row) {
+    body::SegmentDefinition& into = definition.segments[row];
+    const body::SegmentDefinition& from = loaded.segments[row];
+    into.p_parent_segment_m = from.p_parent_segment_m;
+    into.p_segment_end_m = from.p_segment_end_m;
+    if (from.aligned && from.sensor_uid == into.sensor_uid) {
+      into.q_sensor_segment = from.q_sensor_segment;
+      into.heading_correction_rad = from.heading_correction_rad;
+      into.aligned = true;
+      ++aligned;
+    }
+  }
+  return aligned;
 }
 
 }  // namespace limbcast::posture

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string_view>
 
 #include "common/base/result.hpp"
 #include "common/body/body_definition.hpp"
@@ -8,8 +10,9 @@
 namespace limbcast::posture {
 
 /// Keeps alignment and dimensions of each body in one small TOML file, so that a restart of the
-/// service asks nobody to stand in the reference pose again. Thread-compatible; one body's file is
-/// used by one thread at a time.
+/// service asks nobody to stand in the reference pose again; and profiles, the same under a
+/// person's name, which follow that person to any body. Thread-compatible; one body's file is used
+/// by one thread at a time.
 class AlignmentStore {
  public:
   /// An empty folder name: nothing is kept.
@@ -31,7 +34,26 @@ class AlignmentStore {
   /// a value that cannot be; `definition` is unchanged then.
   [[nodiscard]] Result<bool> Load(body::BodyDefinition& definition) const;
 
+  /// `<folder>/profile_<name>.toml`; characters other than letters, digits, '-' and '_' become '_'.
+  [[nodiscard]] std::filesystem::path ProfilePathOf(std::string_view name) const;
+  [[nodiscard]] bool HasProfile(std::string_view name) const;
+
+  /// Replaces the profile as a whole, as Save. Without a folder there is nowhere to keep it:
+  /// kUnavailable. kInvalidArgument for a name that is empty or longer than 48 characters.
+  [[nodiscard]] Status SaveProfile(std::string_view name,
+                                   const body::BodyDefinition& definition) const;
+
+  /// Puts a profile over `definition`: dimensions, and the alignment of each sensor that sits on
+  /// the segment for which the profile knows it. An alignment belongs to sensor and segment: one
+  /// that sits elsewhere now, or another one in its place, is left as it is. Gives the number of
+  /// aligned segments. Fails as Load, and with kNotFound; `definition` is unchanged then.
+  [[nodiscard]] Result<std::size_t> LoadProfile(std::string_view name,
+                                                body::BodyDefinition& definition) const;
+
  private:
+  [[nodiscard]] Status Replace(const std::filesystem::path& path,
+                               const body::BodyDefinition& definition) const;
+
   std::filesystem::path folder_;
 };
 

@@ -71,6 +71,9 @@ class BodyTracker {
   /// Puts other dimensions or alignment in force; revision and time are set by the tracker.
   /// `definition` is valid and has the same segments.
   void Redefine(body::BodyDefinition definition, Time now);
+  /// The same for what comes from a profile: offsets hold, headings of sensors without magnetometer
+  /// are to be found again.
+  void Restore(body::BodyDefinition definition, Time now);
   /// True once after every change of the definition: it is to be published.
   [[nodiscard]] bool TakeDefinitionChanged();
 

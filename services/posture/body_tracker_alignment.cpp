@@ -104,6 +104,11 @@ void BodyTracker::ChooseAutomatic(bool restored) {
   }
 }
 
+void BodyTracker::Restore(body::BodyDefinition definition, Time now) {
+  Redefine(std::move(definition), now);
+  ChooseAutomatic(true);
+}
+
 bool BodyTracker::StandsUpright(const body::StandingPose& pose) const {
   bool any = false;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {

@@ -107,15 +107,24 @@ CommandOutcome BodyCommands::Execute(const roster::Command& command, Time now,
   }
   if (outcome.accepted && outcome.changes) {
     if (command.kind != roster::CommandKind::kUndo) {
-      if (before_.size() == kMaxUndo) {
-        before_.erase(before_.begin());
-      }
-      before_.push_back(tracker.definition());
+      Remember(tracker.definition());
     }
     tracker.Redefine(std::move(definition), now);
   }
   outcome.message.resize(std::min(outcome.message.size(), kMaxMessageLength));
   return outcome;
+}
+
+void BodyCommands::Remember(const body::BodyDefinition& definition) {
+  if (before_.size() == kMaxUndo) {
+    before_.erase(before_.begin());
+  }
+  before_.push_back(definition);
+}
+
+void BodyCommands::Adopt(body::BodyDefinition definition, Time now, BodyTracker& tracker) {
+  Remember(tracker.definition());
+  tracker.Redefine(std::move(definition), now);
 }
 
 /// Empty, or why the sensors that are wanted do not say how the person stands.

@@ -42,9 +42,13 @@ class BodyCommands {
   [[nodiscard]] CommandOutcome Execute(const roster::Command& command, Time now,
                                        BodyTracker& tracker);
 
+  /// Puts a definition in force that comes from elsewhere (a profile), so that it can be undone.
+  void Adopt(body::BodyDefinition definition, Time now, BodyTracker& tracker);
+
   static constexpr std::size_t kMaxUndo = 8;
 
  private:
+  void Remember(const body::BodyDefinition& definition);
   CommandOutcome TakeReferencePose(const roster::Command& command, BodyTracker& tracker,
                                    body::BodyDefinition& definition) const;
   CommandOutcome ResetMounting(const roster::Command& command, const BodyTracker& tracker,

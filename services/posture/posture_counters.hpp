@@ -26,8 +26,9 @@ enum class Count : std::uint8_t {
   kCommandsRefused,
   kDefinitions,
   kPublishErrors,
+  kCalibrations,  ///< that the service made by itself
 };
-inline constexpr std::size_t kCountCount = 15;
+inline constexpr std::size_t kCountCount = 16;
 
 /// As in `health`: "states.received", ...
 [[nodiscard]] constexpr std::string_view NameOf(Count count) {
@@ -35,7 +36,7 @@ inline constexpr std::size_t kCountCount = 15;
       "states.received",    "states.used",         "states.late",      "states.ignored",
       "states.unassigned",  "states.dropped",      "skeletons",        "skeletons.complete",
       "skeletons.deadline", "skeletons.overtaken", "skeletons.probes", "commands.accepted",
-      "commands.refused",   "definitions",         "publish.errors"};
+      "commands.refused",   "definitions",         "publish.errors",     "calibrations"};
   return kNames[static_cast<std::size_t>(count)];
 }
 

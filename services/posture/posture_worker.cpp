@@ -11,6 +11,8 @@
 namespace limbcast::posture {
 namespace {
 
+constexpr std::size_t kMaxProfileName = 48;
+
 Count CountOf(StateFate fate) {
   switch (fate) {
     case StateFate::kUsed:
@@ -96,6 +98,10 @@ void PostureWorker::Handle(const StateInput& state) {
   }
   if (tracker.TakeDefinitionChanged()) {
     PublishDefinition(*body);
+    if (const auto calibrated = tracker.TakeCalibrated()) {
+      shared_.counters.Add(Count::kCalibrations);
+      (void)Save(*body);
+    }
   }
 }
 
@@ -113,6 +119,9 @@ void PostureWorker::Handle(const std::shared_ptr<const roster::RosterEntry>& ent
   }
   const bool back = !std::exchange(body->present, true);
   const bool changed = body->tracker->SetRoster(*entry);
+  if (changed) {
+    RestoreProfile(*body);
+  }
   if (body->tracker->TakeDefinitionChanged() || changed || back) {
     PublishDefinition(*body);
   }
@@ -149,15 +158,14 @@ void PostureWorker::Handle(const std::shared_ptr<const roster::Command>& command
   if (body == nullptr || !body->present) {
     outcome.message = fmt::format("no body {} in the roster", command->body_id.value);
   } else {
-    outcome = body->commands.Execute(*command, shared_.clock.Now(), *body->tracker);
+    outcome = command->kind == roster::CommandKind::kProfile
+                  ? UseProfile(*command, *body)
+                  : body->commands.Execute(*command, shared_.clock.Now(), *body->tracker);
     if (body->tracker->TakeDefinitionChanged()) {
       PublishDefinition(*body);
     }
-    if (outcome.accepted) {
-      if (const Status saved = shared_.store.Save(body->tracker->definition()); !saved) {
-        shared_.on_error("alignment not saved: " + saved.error().message);
-        outcome.message += " (not saved to disk)";
-      }
+    if (outcome.accepted && outcome.changes && !Save(*body)) {
+      outcome.message += " (not saved to disk)";
     }
   }
   shared_.counters.Add(outcome.accepted ? Count::kCommandsAccepted : Count::kCommandsRefused);
@@ -166,6 +174,65 @@ void PostureWorker::Handle(const std::shared_ptr<const roster::Command>& command
                                .accepted = outcome.accepted,
                                .message = outcome.message}));
   shared_.replies.Flush();
+}
+
+bool PostureWorker::Save(const Body& body) {
+  const body::BodyDefinition& definition = body.tracker->definition();
+  Status saved = shared_.store.Save(definition);
+  if (saved && !shared_.config.state_dir.empty() && !definition.name.empty()) {
+    saved = shared_.store.SaveProfile(definition.name.substr(0, kMaxProfileName), definition);
+  }
+  if (!saved) {
+    shared_.on_error("alignment not saved: " + saved.error().message);
+  }
+  return saved.ok();
+}
+
+void PostureWorker::RestoreProfile(Body& body) {
+  body::BodyDefinition definition = body.tracker->definition();
+  const std::string name = definition.name.substr(0, kMaxProfileName);
+  const auto needs = [](const body::SegmentDefinition& segment) {
+    return segment.tracked && !segment.aligned;
+  };
+  if (std::none_of(definition.segments.begin(), definition.segments.end(), needs) ||
+      !shared_.store.HasProfile(name)) {
+    return;
+  }
+  const body::BodyDefinition before = definition;
+  const auto aligned = shared_.store.LoadProfile(name, definition);
+  if (!aligned) {
+    shared_.on_error("profile refused: " + aligned.error().message);
+    return;
+  }
+  for (std::size_t row = 0; row < definition.segments.size(); ++row) {
+    if (!needs(before.segments[row])) {
+      definition.segments[row] = before.segments[row];  // what is in force is newer
+    }
+  }
+  body.tracker->Restore(std::move(definition), shared_.clock.Now());
+}
+
+CommandOutcome PostureWorker::UseProfile(const roster::Command& command, Body& body) {
+  const std::size_t space = command.text.find(' ');
+  const std::string verb = command.text.substr(0, space);
+  const std::string name = space == std::string::npos ? "" : command.text.substr(space + 1);
+  body.tracker->FoldHeadings();
+  if (verb == "save") {
+    const Status saved = shared_.store.SaveProfile(name, body.tracker->definition());
+    return saved ? CommandOutcome{true, "profile " + name + " saved", false}
+                 : CommandOutcome{false, saved.error().message, false};
+  }
+  if (verb != "load") {
+    return {false, fmt::format("profile must be \"save NAME\" or \"load NAME\", is \"{}\"", command.text),
+            false};
+  }
+  body::BodyDefinition definition = body.tracker->definition();
+  const auto aligned = shared_.store.LoadProfile(name, definition);
+  if (!aligned) {
+    return {false, aligned.error().message, false};
+  }
+  body.commands.Adopt(std::move(definition), shared_.clock.Now(), *body.tracker);
+  return {true, fmt::format("profile {} in force, {} segments aligned", name, *aligned)};
 }
 
 void PostureWorker::Publish(body::Skeleton& skeleton, TickEnd end, bool live) {

@@ -91,6 +91,11 @@ class PostureWorker {
   void Handle(const Gone& gone);
   Body* Find(BodyId body_id);
   Body& MakeBody(BodyId body_id);
+  CommandOutcome UseProfile(const roster::Command& command, Body& body);
+  /// The profile of the person who came, for sensors that are not aligned.
+  void RestoreProfile(Body& body);
+  /// For this body, and as the profile of its person. False: not on the disk.
+  bool Save(const Body& body);
   void Publish(body::Skeleton& skeleton, TickEnd end, bool live);
   void PublishJointAngles(const body::Skeleton& skeleton);
   void PublishDefinition(Body& body);

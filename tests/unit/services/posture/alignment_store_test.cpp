@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "common/body/default_body.hpp"
 #include "common/math/rotation.hpp"
@@ -149,6 +150,63 @@ TEST(AlignmentStorePrepareTest, AFolderThatCannotBeIsRefusedByName) {
   const Status prepared = AlignmentStore("/proc/no/such").Prepare();
   ASSERT_FALSE(prepared.ok());
   EXPECT_THAT(prepared.error().message, HasSubstr("/proc/no/such"));
+}
+
+TEST_F(AlignmentStoreTest, AProfileFollowsAPersonToAnotherBody) {
+  ASSERT_TRUE(store_.SaveProfile("Anna", aligned_).ok());
+  EXPECT_TRUE(store_.HasProfile("Anna"));
+  body::BodyDefinition other = *body::MakeDefaultBody(BodyId{9});
+  for (body::SegmentDefinition& segment : other.segments) {
+    segment.sensor_uid = SensorUid{0xFEDCBA9876543210ULL + body::Index(segment.segment)};
+  }
+  const auto aligned = store_.LoadProfile("Anna", other);
+  ASSERT_TRUE(aligned.ok()) << aligned.error().message;
+  EXPECT_EQ(*aligned, other.segments.size());
+  EXPECT_EQ(other.body_id, BodyId{9});
+  EXPECT_EQ(other.segments[5].q_sensor_segment.coeffs(),
+            aligned_.segments[5].q_sensor_segment.coeffs());
+}
+
+TEST_F(AlignmentStoreTest, AProfileAlignsOnlySensorsThatSitWhereItKnowsThem) {
+  ASSERT_TRUE(store_.SaveProfile("Anna", aligned_).ok());
+  body::BodyDefinition swapped = aligned_;
+  for (body::SegmentDefinition& segment : swapped.segments) {
+    segment.aligned = false;
+    segment.q_sensor_segment.setIdentity();
+  }
+  std::swap(swapped.segments[15].sensor_uid, swapped.segments[19].sensor_uid);  // the thighs
+  ASSERT_TRUE(store_.LoadProfile("Anna", swapped).ok());
+  EXPECT_FALSE(swapped.segments[15].aligned);
+  EXPECT_FALSE(swapped.segments[19].aligned);
+  EXPECT_TRUE(swapped.segments[16].aligned);
+}
+
+TEST_F(AlignmentStoreTest, AHalfWrittenProfileIsRefusedAndWhatIsInForceStays) {
+  ASSERT_TRUE(store_.SaveProfile("Anna", aligned_).ok());
+  std::ifstream file(store_.ProfilePathOf("Anna"));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  for (const double share : {0.1, 0.5, 0.9, 0.999}) {
+    const auto length = static_cast<std::size_t>(share * static_cast<double>(text.size()));
+    std::ofstream(store_.ProfilePathOf("Anna"), std::ios::trunc) << text.substr(0, length);
+    body::BodyDefinition in_force = *body::MakeDefaultBody(kBody);
+    const auto loaded = store_.LoadProfile("Anna", in_force);
+    ASSERT_FALSE(loaded.ok()) << share;
+    EXPECT_THAT(loaded.error().message, HasSubstr("profile_Anna.toml"));
+    EXPECT_FALSE(in_force.segments[0].aligned);
+    EXPECT_EQ(in_force.segments[1].p_parent_segment_m,
+              body::MakeDefaultBody(kBody)->segments[1].p_parent_segment_m);
+  }
+}
+
+TEST_F(AlignmentStoreTest, NamesOfProfilesAreCheckedAndCannotLeaveTheFolder) {
+  EXPECT_EQ(store_.SaveProfile("", aligned_).error().message,
+            "a profile's name must have 1 to 48 characters, has 0");
+  EXPECT_FALSE(store_.SaveProfile(std::string(49, 'a'), aligned_).ok());
+  EXPECT_EQ(store_.ProfilePathOf("../../etc/x").filename(), "profile_______etc_x.toml");
+  body::BodyDefinition definition = aligned_;
+  EXPECT_EQ(store_.LoadProfile("Bob", definition).error().message, "no profile \"Bob\"");
+  EXPECT_EQ(AlignmentStore("").SaveProfile("Anna", aligned_).error().code,
+            ErrorCode::kUnavailable);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -149,7 +151,7 @@ TEST_F(BodyCommandsTest, ResetHeadingTurnsTheWholeBodySoThatThePelvisFacesX) {
   const Quaterniond bend = math::ExpSO3({0.0, -0.5, 0.0});
   Stand(0.1, 1.3, Segment::kLeftForeArm, bend);
   ASSERT_TRUE(rig_.Command(kBody, CommandKind::kResetHeading).accepted);
-  Stand(0.1, 1.3, Segment::kLeftForeArm, bend);
+  Stand(0.5, 1.3, Segment::kLeftForeArm, bend);  // the transition takes blend_s
   EXPECT_LT(Error_rad(Segment::kPelvis, Quaterniond::Identity()), 1e-6);
   EXPECT_LT(Error_rad(Segment::kLeftForeArm, bend), 1e-6) << "the posture itself is unchanged";
   EXPECT_NEAR(rig_.definitions.back().segments[0].heading_correction_rad, -1.3, 1e-6);
@@ -162,10 +164,64 @@ TEST_F(BodyCommandsTest, ResetHeadingOfEachSegmentBringsDriftedHeadingsTogether)
   Stand(0.1, 0.0, Segment::kHead, drift);
   EXPECT_NEAR(Error_rad(Segment::kHead, Quaterniond::Identity()), 0.3, 1e-6);
   ASSERT_TRUE(rig_.Command(kBody, CommandKind::kResetHeading, "segments", {0.5}).accepted);
-  Stand(0.1, 0.0, Segment::kHead, drift);
+  Stand(0.5, 0.0, Segment::kHead, drift);
   EXPECT_LT(Error_rad(Segment::kHead, body::HeadingRotation(0.5)), 1e-6);
   EXPECT_LT(Error_rad(Segment::kPelvis, body::HeadingRotation(0.5)), 1e-6);
   EXPECT_FALSE(rig_.Command(kBody, CommandKind::kResetHeading, "everything").accepted);
+}
+
+TEST_F(BodyCommandsTest, ANewAlignmentComesIntoForceWithoutAJump) {
+  Stand(0.5, 0.0);
+  ASSERT_TRUE(rig_.Command(kBody, CommandKind::kReferencePose).accepted);
+  Stand(0.1, 0.0);
+  ASSERT_TRUE(rig_.Command(kBody, CommandKind::kResetHeading, "", {1.0}).accepted);
+  double last_rad = 0.0;
+  double fastest_rad = 0.0;
+  for (int tick = 0; tick < 50; ++tick) {
+    Stand(0.01, 0.0);
+    const double now_rad = Error_rad(Segment::kPelvis, Quaterniond::Identity());
+    fastest_rad = std::max(fastest_rad, std::abs(now_rad - last_rad));
+    last_rad = now_rad;
+  }
+  EXPECT_NEAR(last_rad, 1.0, 1e-6);
+  // The steepest slope of 3u² − 2u³ is 1.5: 1 rad in 0.4 s turns by 0.0375 rad in 10 ms at most.
+  EXPECT_LT(fastest_rad, 0.038);
+}
+
+TEST_F(BodyCommandsTest, MountingResetMendsOneSlippedStrapAndLeavesTheRest) {
+  Stand(0.5, 0.8);
+  ASSERT_TRUE(rig_.Command(kBody, CommandKind::kReferencePose, "", {0.8}).accepted);
+  const Quaterniond slipped = math::ExpSO3({0.3, 0.2, -0.4});
+  Stand(0.5, 0.8, Segment::kLeftForeArm, slipped);
+  const auto head = rig_.definitions.back().segments[6].q_sensor_segment;
+  const auto reply = rig_.Command(kBody, CommandKind::kResetMounting, "left_fore_arm");
+  ASSERT_TRUE(reply.accepted) << reply.message;
+  Stand(0.5, 0.8, Segment::kLeftForeArm, slipped);
+  EXPECT_LT(Error_rad(Segment::kLeftForeArm, body::HeadingRotation(0.8)), 1e-6);
+  EXPECT_EQ(rig_.definitions.back().segments[6].q_sensor_segment.coeffs(), head.coeffs());
+
+  EXPECT_EQ(rig_.Command(kBody, CommandKind::kResetMounting, "left_foot").message,
+            "no sensor on a segment \"left_foot\"");
+}
+
+TEST_F(BodyCommandsTest, AFunctionalCalibrationNeedsAReferencePoseAndAWalk) {
+  Stand(0.5, 0.0);
+  EXPECT_EQ(rig_.Command(kBody, CommandKind::kFunctionalCalibration, "start").message,
+            "take a reference pose first");
+  ASSERT_TRUE(rig_.Command(kBody, CommandKind::kReferencePose).accepted);
+  const auto before = rig_.definitions.size();
+  EXPECT_TRUE(rig_.Command(kBody, CommandKind::kFunctionalCalibration, "start").accepted);
+  EXPECT_EQ(rig_.definitions.size(), before) << "nothing has changed yet";
+  Stand(1.0, 0.0);
+  EXPECT_THAT(rig_.Command(kBody, CommandKind::kFunctionalCalibration, "finish").message,
+              HasSubstr("needs at least 6 s: go on"));
+  Stand(8.0, 0.0);
+  EXPECT_THAT(rig_.Command(kBody, CommandKind::kFunctionalCalibration, "finish").message,
+              HasSubstr("no steady walking"));
+  EXPECT_EQ(rig_.Command(kBody, CommandKind::kFunctionalCalibration, "finish").message,
+            "no functional calibration was started");
+  EXPECT_EQ(rig_.Command(kBody, CommandKind::kFunctionalCalibration, "now").message,
+            "calibration must be start, finish or cancel, is \"now\"");
 }
 
 TEST_F(BodyCommandsTest, ResetHeadingNeedsAPelvis) {

@@ -230,6 +230,41 @@ TEST(PostureServiceTest, AlignmentAndDimensionsSurviveARestartOfTheService) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(PostureServiceTest, AProfileIsSavedRestoredByNameAndFollowsThePerson) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "posture_profile";
+  std::filesystem::remove_all(folder);
+  PostureConfig config;
+  config.state_dir = folder.string();
+  const Eigen::Quaterniond mounted = math::ExpSO3({0.3, 0.1, -0.4});
+  const auto aligned = [](const PostureRig& rig) {
+    return rig.definitions.back().segments[0].aligned;
+  };
+  {
+    PostureRig rig(config);
+    rig.Roster(MakeRoster(kBody, kThree));
+    rig.Run(kBody, kThree, 0.5, mounted);
+    ASSERT_TRUE(rig.Command(kBody, roster::CommandKind::kReferencePose).accepted);
+    EXPECT_TRUE(rig.Command(kBody, roster::CommandKind::kProfile, "save left handed").accepted);
+    ASSERT_TRUE(rig.Command(kBody, roster::CommandKind::kUndo).accepted);
+    EXPECT_FALSE(aligned(rig));
+    const auto loaded = rig.Command(kBody, roster::CommandKind::kProfile, "load left handed");
+    EXPECT_EQ(loaded.message, "profile left handed in force, 3 segments aligned");
+    EXPECT_TRUE(aligned(rig));
+    EXPECT_EQ(rig.Command(kBody, roster::CommandKind::kProfile, "load nobody").message,
+              "no profile \"nobody\"");
+    EXPECT_FALSE(rig.Command(kBody, roster::CommandKind::kProfile, "burn it").accepted);
+    EXPECT_TRUE(aligned(rig)) << "a refusal changes nothing";
+  }
+  // The same person as another body, over another gateway: uids are of serial numbers.
+  PostureRig rig(config);
+  roster::RosterEntry elsewhere = MakeRoster(kBody, kThree);
+  elsewhere.body_id = BodyId{77};
+  rig.Roster(elsewhere);
+  EXPECT_TRUE(aligned(rig));
+  EXPECT_EQ(rig.definitions.back().body_id, BodyId{77});
+  std::filesystem::remove_all(folder);
+}
+
 TEST(PostureServiceTest, ABadStateFolderIsRefusedAtStart) {
   PostureConfig config;
   config.state_dir = "/proc/no/such/folder";
