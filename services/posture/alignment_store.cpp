@@ -237,6 +237,7 @@ Result<std::size_t> AlignmentStore::LoadProfile(std::string_view name,
     const body::SegmentDefinition& from = loaded.segments[row];
     into.p_parent_segment_m = from.p_parent_segment_m;
     into.p_segment_end_m = from.p_segment_end_m;
+    into.length_measured = from.length_measured;
     if (from.aligned && from.sensor_uid == into.sensor_uid) {
       into.q_sensor_segment = from.q_sensor_segment;
       into.heading_correction_rad = from.heading_correction_rad;
