@@ -18,6 +18,7 @@
 #include "tools/limbcast/calibrate/calibration_report.hpp"
 #include "tools/limbcast/calibrate/live_collector.hpp"
 #include "tools/limbcast/calibrate/sensor_samples.hpp"
+#include "tools/limbcast/calibrate_body_command.hpp"
 #include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
@@ -187,7 +188,7 @@ void AddCommon(CLI::App& app, CalibrateOptions& options) {
 
 SubCommand AddCalibrateCommand(service::ServiceCommandLine& line) {
   const auto options = std::make_shared<CalibrateOptions>();
-  CLI::App* app = line.app().add_subcommand("calibrate", "Calibrate sensors, or a session");
+  CLI::App* app = line.app().add_subcommand("calibrate", "Calibrate sensors, a session, or a body");
   app->require_subcommand(1);
   CLI::App* sensor = app->add_subcommand(
       "sensor",
@@ -219,7 +220,11 @@ SubCommand AddCalibrateCommand(service::ServiceCommandLine& line) {
       ->add_option("--declination-deg", options->declination_deg,
                    "Magnetic north's bearing from true north, east positive")
       ->check(CLI::Range(-180.0, 180.0));
-  return {.app = app, .run = [&line, options, session] {
+  const SubCommand body = AddCalibrateBody(*app, line);
+  return {.app = app, .run = [&line, options, session, body] {
+            if (body.app->parsed()) {
+              return body.run();
+            }
             return session->parsed() ? CalibrateSession(line, *options)
                                      : CalibrateSensors(line, *options);
           }};

@@ -18,6 +18,7 @@
 #include "tools/limbcast/evaluate/orientation_trial.hpp"
 #include "tools/limbcast/evaluate/progress_bar.hpp"
 #include "tools/limbcast/evaluate/recordings.hpp"
+#include "tools/limbcast/evaluate_body_command.hpp"
 #include "tools/limbcast/evaluate_coil_command.hpp"
 #include "tools/limbcast/evaluate_gaps_command.hpp"
 #include "tools/limbcast/evaluate_published_command.hpp"
@@ -198,7 +199,11 @@ SubCommand AddEvaluateCommand(service::ServiceCommandLine& line) {
   const SubCommand published = AddEvaluatePublishedCommand(*evaluate);
   const SubCommand gaps = AddEvaluateGaps(*evaluate);
   const SubCommand coil = AddEvaluateCoil(*evaluate);
-  return {.app = evaluate, .run = [options, published, gaps, coil] {
+  const SubCommand body = AddEvaluateBody(*evaluate);
+  return {.app = evaluate, .run = [options, published, gaps, coil, body] {
+            if (body.app->parsed()) {
+              return body.run();
+            }
             if (coil.app->parsed()) {
               return coil.run();
             }
