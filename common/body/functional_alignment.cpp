@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -84,8 +83,8 @@ struct Evidence {
   std::vector<TurnObservation> turns;
 };
 
-Evidence Collect(const std::vector<SmoothMotion>& motions, double rate_hz,
-                 std::size_t half_stride, bool common_heading) {
+Evidence Collect(const std::vector<SmoothMotion>& motions, double rate_hz, std::size_t half_stride,
+                 bool common_heading) {
   Evidence evidence;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const SmoothMotion& motion = motions[i];
@@ -109,8 +108,7 @@ Evidence Collect(const std::vector<SmoothMotion>& motions, double rate_hz,
     if (joint) {
       const double sigma_rad = std::min(
           kPi, std::hypot(kJointFloor_rad, joint->sigma_rad) + kJointMisfit_rad * joint->misfit);
-      evidence.turns.push_back(
-          {static_cast<std::size_t>(parent), i, joint->turn_rad, sigma_rad});
+      evidence.turns.push_back({static_cast<std::size_t>(parent), i, joint->turn_rad, sigma_rad});
     }
     if (common_heading) {
       evidence.turns.push_back({static_cast<std::size_t>(parent), i, 0.0, kCommonHeading_rad});
@@ -149,7 +147,8 @@ double Forwardness(const FunctionalInput& input, const std::vector<SmoothMotion>
     const bool knee = segment == Segment::kRightLowerLeg || segment == Segment::kLeftLowerLeg;
     const bool elbow = segment == Segment::kRightForeArm || segment == Segment::kLeftForeArm;
     const std::ptrdiff_t parent = ParentWithSensor(motions, segment);
-    if ((!knee && !elbow) || parent < 0 || ParentOf(segment) != motions[static_cast<std::size_t>(parent)].segment ||
+    if ((!knee && !elbow) || parent < 0 ||
+        ParentOf(segment) != motions[static_cast<std::size_t>(parent)].segment ||
         input.standing.pose != ReferencePose::kNPose) {
       continue;
     }
@@ -197,10 +196,14 @@ double MeanAngle_rad(const std::vector<double>& angles_rad) {
   return std::atan2(s, c);
 }
 
-std::string Text(const char* format, double a, double b = 0.0) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
+std::string Whole(double value) { return std::to_string(std::lround(value)); }
+
+std::string Degrees(double angle_rad) { return Whole(angle_rad / kDegree_rad) + " deg"; }
+
+/// With one decimal.
+std::string Tenths(double value) {
+  const long tenths = std::lround(std::abs(value) * 10.0);
+  return (value < 0.0 ? "-" : "") + std::to_string(tenths / 10) + "." + std::to_string(tenths % 10);
 }
 
 /// The third step: from directions of walking to offsets and heading corrections.
@@ -212,21 +215,20 @@ void Place(const FunctionalInput& input, const std::vector<SmoothMotion>& motion
   double sin_sum = 0.0;
   double cos_sum = 0.0;
   for (const SmoothMotion& motion : motions) {
-    gained_rad.push_back(
-        MeanHeading_rad(motion, input.standing.q_earth_sensor[Index(motion.segment)],
-                        graph.direction_rad[gained_rad.size()]));
+    gained_rad.push_back(MeanHeading_rad(motion,
+                                         input.standing.q_earth_sensor[Index(motion.segment)],
+                                         graph.direction_rad[gained_rad.size()]));
     const FacingSpread spread = SpreadOf(motion.segment);
-    const double weight = 1.0 / (spread.standing_rad * spread.standing_rad +
-                                 spread.walking_rad * spread.walking_rad);
+    const double weight =
+        1.0 / (spread.standing_rad * spread.standing_rad + spread.walking_rad * spread.walking_rad);
     if (n_pose || !IsArm(motion.segment)) {
       sin_sum += weight * std::sin(-gained_rad.back());
       cos_sum += weight * std::cos(-gained_rad.back());
     }
   }
   const double stance_rad = std::atan2(sin_sum, cos_sum);
-  const double facing_rad = input.common_heading
-                                ? stance_rad + MeanAngle_rad(graph.direction_rad)
-                                : input.facing_rad;
+  const double facing_rad =
+      input.common_heading ? stance_rad + MeanAngle_rad(graph.direction_rad) : input.facing_rad;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const Segment segment = motions[i].segment;
     const FacingSpread spread = SpreadOf(segment);
@@ -238,18 +240,16 @@ void Place(const FunctionalInput& input, const std::vector<SmoothMotion>& motion
     const double theta_rad = graph.direction_rad[i];
     SegmentFit one;
     one.segment = segment;
-    one.heading_correction_rad =
-        std::remainder(facing_rad - stance_rad - theta_rad, 2.0 * kPi);
+    one.heading_correction_rad = std::remainder(facing_rad - stance_rad - theta_rad, 2.0 * kPi);
     const Eigen::Quaterniond q_earth_segment =
         HeadingRotation(theta_rad + stance_rad + of_stance_rad) *
         ReferenceOrientation(input.standing.pose, segment);
     one.q_sensor_segment = math::Canonical(
-        (input.standing.q_earth_sensor[Index(segment)].conjugate() * q_earth_segment)
-            .normalized());
+        (input.standing.q_earth_sensor[Index(segment)].conjugate() * q_earth_segment).normalized());
     one.sigma_rad = graph.sigma_rad[i] * std::max(1.0, graph.misfit[i]);
     if (one.sigma_rad > kMaxFitSigma_rad) {
-      one.doubt = Text("its heading is known to %.0f deg only (limit %.0f): it moved too little",
-                       one.sigma_rad / kDegree_rad, kMaxFitSigma_rad / kDegree_rad);
+      one.doubt = "its heading is known to " + Degrees(one.sigma_rad) + " only (limit " +
+                  Degrees(kMaxFitSigma_rad) + "): it moved too little";
     }
     fit.segments.push_back(std::move(one));
   }
@@ -266,8 +266,8 @@ struct SeenWalk {
 Result<SeenWalk> Survey(const MotionRecord& walking, bool common_heading) {
   if (walking.segments.size() < 2) {
     return Error{ErrorCode::kInvalidArgument,
-                 Text("functional alignment needs at least 2 sensors, has %.0f",
-                      static_cast<double>(walking.segments.size()))};
+                 "functional alignment needs at least 2 sensors, has " +
+                     std::to_string(walking.segments.size())};
   }
   const double rate_hz = walking.rate_hz;
   SeenWalk seen;
@@ -278,14 +278,13 @@ Result<SeenWalk> Survey(const MotionRecord& walking, bool common_heading) {
   const auto gait = FindGait(seen.motions, rate_hz);
   if (!gait) {
     return Error{ErrorCode::kInvalidArgument,
-                 Text("no steady walking in these %.0f s: moved for %.0f s on end, but no stride "
-                      "repeats",
-                      static_cast<double>(walking.size()) / rate_hz, seen.walked_s)};
+                 "no steady walking in these " +
+                     Whole(static_cast<double>(walking.size()) / rate_hz) + " s: moved for " +
+                     Whole(seen.walked_s) + " s on end, but no stride repeats"};
   }
   if (seen.walked_s / gait->stride_s < kMinStrides) {
-    return Error{ErrorCode::kInvalidArgument,
-                 Text("walked %.1f strides, needs at least %.0f", seen.walked_s / gait->stride_s,
-                      kMinStrides)};
+    return Error{ErrorCode::kInvalidArgument, "walked " + Tenths(seen.walked_s / gait->stride_s) +
+                                                  " strides, needs at least " + Whole(kMinStrides)};
   }
   seen.gait = *gait;
   const auto stride = static_cast<std::size_t>(std::lround(gait->stride_s * rate_hz));
@@ -308,9 +307,9 @@ Status CheckInput(const FunctionalInput& input) {
   const double tilt_rad = StanceTilt_rad(input.standing, input.walking);
   if (tilt_rad > kMaxStanceTilt_rad) {
     return Error{ErrorCode::kInvalidArgument,
-                 Text("the reference pose was no upright stance: trunk and legs are inclined %.0f "
-                      "deg otherwise than while walking (limit %.0f)",
-                      tilt_rad / kDegree_rad, kMaxStanceTilt_rad / kDegree_rad)};
+                 "the reference pose was no upright stance: trunk and legs are inclined " +
+                     Degrees(tilt_rad) + " otherwise than while walking (limit " +
+                     Degrees(kMaxStanceTilt_rad) + ")"};
   }
   return Ok();
 }
@@ -379,9 +378,8 @@ Result<FunctionalFit> FitFunctionalAlignment(const FunctionalInput& input) {
   }
   if (fit.forwardness < kMinForwardness) {
     return Error{ErrorCode::kInvalidArgument,
-                 Text("cannot tell forward from backward (%.1f, needs %.1f): walk faster, with "
-                      "knees and arms free",
-                      fit.forwardness, kMinForwardness)};
+                 "cannot tell forward from backward (" + Tenths(fit.forwardness) + ", needs " +
+                     Tenths(kMinForwardness) + "): walk faster, with knees and arms free"};
   }
   Place(input, seen->motions, graph, fit);
   return fit;

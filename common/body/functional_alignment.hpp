@@ -88,9 +88,9 @@ struct WalkingDirection {
 [[nodiscard]] Result<std::vector<WalkingDirection>> FindWalkingDirections(
     const MotionRecord& walking);
 
-/// Mean angle by which trunk and legs are inclined otherwise in `standing` than while walking: small
-/// for a person who stood, large for one who sat or lay. Segments that are not in both count as
-/// π.
+/// Mean angle by which trunk and legs are inclined otherwise in `standing` than while walking:
+/// small for a person who stood, large for one who sat or lay. Segments that are not in both count
+/// as π.
 [[nodiscard]] double StanceTilt_rad(const StandingPose& standing, const MotionRecord& walking);
 
 }  // namespace limbcast::body

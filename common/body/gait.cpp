@@ -48,8 +48,7 @@ double WeakestRms(const std::vector<double>& x, std::size_t width) {
       least = std::min(least, sum);
     }
   }
-  return std::isinf(least) ? 0.0
-                           : std::sqrt(std::max(0.0, least) / static_cast<double>(width));
+  return std::isinf(least) ? 0.0 : std::sqrt(std::max(0.0, least) / static_cast<double>(width));
 }
 
 /// The first maximum in [first, last] that is about as high as the highest; 0 = none.
@@ -162,7 +161,8 @@ std::optional<Gait> FindGait(const std::vector<SmoothMotion>& motions, double ra
       mean[i] += one[i] / static_cast<double>(signals.all.size());
     }
     // Somebody who sits and then gets up is no walker: every moment of it must be one.
-    intensity += WeakestRms(signal, static_cast<std::size_t>(2.0 * rate_hz)) / signals.least / static_cast<double>(signals.all.size());
+    intensity += WeakestRms(signal, static_cast<std::size_t>(2.0 * rate_hz)) / signals.least /
+                 static_cast<double>(signals.all.size());
   }
   const std::size_t peak = FirstPeak(mean, lag(kMinStride_s), last);
   if (intensity < 1.0 || peak == 0 || mean[peak] < kMinPeriodicity) {

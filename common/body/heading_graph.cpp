@@ -66,7 +66,8 @@ std::vector<bool> Start(const std::vector<DirectionObservation>& directions,
 class Normal {
  public:
   explicit Normal(std::size_t count)
-      : H(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(count))),
+      : H(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count),
+                                static_cast<Eigen::Index>(count))),
         g(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count))),
         squares(count, 0.0),
         seen(count, 0) {}
@@ -87,7 +88,7 @@ class Normal {
     }
   }
 
-  Eigen::MatrixXd H;           // NOLINT(readability-identifier-naming): as in normal equations
+  Eigen::MatrixXd H;  // NOLINT(readability-identifier-naming): as in normal equations
   Eigen::VectorXd g;
   std::vector<double> squares;  // of residuals over σ, by node
   std::vector<int> seen;
@@ -126,13 +127,13 @@ HeadingGraphSolution SolveHeadingGraph(std::size_t count,
       x[i] = Wrapped(x[i] + step[static_cast<Eigen::Index>(i)]);
     }
   }
-  const Eigen::MatrixXd cov = normal.H.ldlt().solve(
-      Eigen::MatrixXd::Identity(normal.H.rows(), normal.H.cols()));
+  const Eigen::MatrixXd cov =
+      normal.H.ldlt().solve(Eigen::MatrixXd::Identity(normal.H.rows(), normal.H.cols()));
   for (std::size_t i = 0; i < count; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     solution.sigma_rad.push_back(reached[i] ? std::min(kPi, std::sqrt(cov(row, row))) : kPi);
-    solution.misfit.push_back(
-        normal.seen[i] == 0 ? 0.0 : std::sqrt(normal.squares[i] / normal.seen[i]));
+    solution.misfit.push_back(normal.seen[i] == 0 ? 0.0
+                                                  : std::sqrt(normal.squares[i] / normal.seen[i]));
   }
   return solution;
 }

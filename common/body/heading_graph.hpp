@@ -24,7 +24,7 @@ struct TurnObservation {
 struct HeadingGraphSolution {
   std::vector<double> direction_rad;  ///< in (−π, π]
   std::vector<double> sigma_rad;      ///< π for a node that nothing connects with node 0
-  std::vector<double> misfit;  ///< rms of a node's residuals over their σ, 1 = as promised
+  std::vector<double> misfit;         ///< rms of a node's residuals over their σ, 1 = as promised
 };
 
 /// Weighted least squares on the circle for the one horizontal direction that all observations are

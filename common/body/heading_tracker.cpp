@@ -69,8 +69,7 @@ void HeadingTracker::NoteActivity(double dt_s, const PerSegment<bool>& use,
       const double rate_rad_s = math::AngleBetween_rad(last_q_[i], q_earth_segment[i]) / dt_s;
       activity_rad2_s2_[i] += share * (rate_rad_s * rate_rad_s - activity_rad2_s2_[i]);
     }
-    const bool moves =
-        use[i] && activity_rad2_s2_[i] > kWalkingRate_rad_s * kWalkingRate_rad_s;
+    const bool moves = use[i] && activity_rad2_s2_[i] > kWalkingRate_rad_s * kWalkingRate_rad_s;
     (i < Index(Segment::kLeftUpperLeg) ? right : left) |= moves;
   }
   walking_ = right && left;
@@ -85,8 +84,7 @@ const PerSegment<double>& HeadingTracker::Update(
     NoteActivity(dt_s, use, q_earth_segment);
     if (dt_s > 0.0) {
       const double rate_rad_s = Wrapped(trunk.heading_rad - trunk_heading_rad_) / dt_s;
-      trunk_rate_rad_s_ +=
-          std::min(1.0, dt_s / kActivityTime_s) * (rate_rad_s - trunk_rate_rad_s_);
+      trunk_rate_rad_s_ += std::min(1.0, dt_s / kActivityTime_s) * (rate_rad_s - trunk_rate_rad_s_);
     }
     const bool correct = walking_ && std::abs(trunk_rate_rad_s_) < kTurningRate_rad_s;
     for (std::size_t i = 0; correct && i < kSegmentCount; ++i) {
@@ -99,7 +97,8 @@ const PerSegment<double>& HeadingTracker::Update(
       if (!use[i] || upright < kMinUpright) {
         continue;
       }
-      const double ahead_rad = ReferenceFacing_rad(segment, trunk.heading_rad, use, q_earth_segment);
+      const double ahead_rad =
+          ReferenceFacing_rad(segment, trunk.heading_rad, use, q_earth_segment);
       const double error_rad = Wrapped(Facing_rad(q_earth_segment[i]) - ahead_rad);
       turn_rad_[i] = -error_rad * dt_s / config_.time_constant_s;
     }

@@ -66,8 +66,8 @@ class HeadingTracker {
   PerSegment<Eigen::Quaterniond> last_q_{};
   PerSegment<bool> last_use_{};
   PerSegment<double> activity_rad2_s2_{};  // of the legs: mean square of the angular rate
-  PerSegment<double> observed_rad_{};       // still to be taken back
-  PerSegment<double> rate_rad_s_{};         // learned, by which headings are turned all the time
+  PerSegment<double> observed_rad_{};      // still to be taken back
+  PerSegment<double> rate_rad_s_{};        // learned, by which headings are turned all the time
   double trunk_rate_rad_s_ = 0.0;          // low-passed
   double trunk_heading_rad_ = 0.0;
   bool has_last_ = false;

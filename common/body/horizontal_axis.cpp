@@ -45,8 +45,7 @@ std::vector<Eigen::Vector2d> Part(const std::vector<Eigen::Vector3d>& vectors,
 }  // namespace
 
 HorizontalAxis PrincipalAxis(const std::vector<Eigen::Vector3d>& vectors) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(
-      Covariance(Part(vectors, 0, 1.0)));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(Covariance(Part(vectors, 0, 1.0)));
   const double major = eigen.eigenvalues()[1];
   HorizontalAxis axis{.direction_rad = DirectionOf(eigen.eigenvectors().col(1)),
                       .sigma_rad = kNothing_rad};
@@ -57,8 +56,7 @@ HorizontalAxis PrincipalAxis(const std::vector<Eigen::Vector3d>& vectors) {
   return axis;
 }
 
-HorizontalAxis SymmetricAxis(const std::vector<Eigen::Vector3d>& vectors,
-                             std::size_t half_stride) {
+HorizontalAxis SymmetricAxis(const std::vector<Eigen::Vector3d>& vectors, std::size_t half_stride) {
   if (vectors.size() <= 2 * half_stride) {
     return {.direction_rad = 0.0, .sigma_rad = kNothing_rad};
   }
@@ -70,9 +68,8 @@ HorizontalAxis SymmetricAxis(const std::vector<Eigen::Vector3d>& vectors,
   const double all = even.trace() + odd.trace();
   const double contrast = eigen.eigenvalues()[1] - eigen.eigenvalues()[0];
   if (all > 0.0 && contrast > 0.0) {
-    axis.sigma_rad = std::min(kNothing_rad, kAxisFloor_rad + kSymmetryRatio_rad *
-                                                                 (all / contrast) *
-                                                                 (all / contrast));
+    axis.sigma_rad = std::min(
+        kNothing_rad, kAxisFloor_rad + kSymmetryRatio_rad * (all / contrast) * (all / contrast));
   }
   return axis;
 }

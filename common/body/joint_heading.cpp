@@ -143,15 +143,14 @@ std::optional<JointHeading> FitJointHeading(const SmoothMotion& first, const Smo
     return heading;  // nothing moves
   }
   const double offset = 0.5 * (before - after) / (before - 2.0 * *least + after);
-  heading.turn_rad =
-      std::remainder((static_cast<double>(at) + offset) * kStep_rad, 2.0 * kPi);
+  heading.turn_rad = std::remainder((static_cast<double>(at) + offset) * kStep_rad, 2.0 * kPi);
   const Solution solution = SolveFor(sums, heading.turn_rad);
   heading.p_sensor1_joint_m = solution.levers_m.head<3>();
   heading.p_sensor2_joint_m = solution.levers_m.tail<3>();
   heading.misfit = std::sqrt(solution.sse / worst);
   const double together = std::max(1.0, kCorrelation_s * rate_hz);
-  const double var_m2_s4 = solution.sse / static_cast<double>(3 * count) +
-                           kAccelError_m_s2 * kAccelError_m_s2;
+  const double var_m2_s4 =
+      solution.sse / static_cast<double>(3 * count) + kAccelError_m_s2 * kAccelError_m_s2;
   heading.sigma_rad = std::min(kPi, std::sqrt(2.0 * var_m2_s4 * together / curvature));
   return heading;
 }

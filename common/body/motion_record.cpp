@@ -69,8 +69,7 @@ std::vector<SmoothMotion> Smooth(const MotionRecord& record, double width_s) {
     motion.accel_in_earth_m_s2 = Filtered(raw.accel_in_earth_m_s2, weights);
     motion.w_earth_sensor_in_earth_rad_s =
         Filtered(AngularRate(raw.q_earth_sensor, record.rate_hz), weights);
-    motion.alpha_in_earth_rad_s2 =
-        Derivative(motion.w_earth_sensor_in_earth_rad_s, record.rate_hz);
+    motion.alpha_in_earth_rad_s2 = Derivative(motion.w_earth_sensor_in_earth_rad_s, record.rate_hz);
     motions.push_back(std::move(motion));
   }
   return motions;
@@ -108,8 +107,7 @@ std::vector<double> HeadingSince_rad(const Eigen::Quaterniond& reference,
   for (const Eigen::Quaterniond& q : q_earth_sensor) {
     const double now_rad = math::Heading_rad(q * reference.conjugate());
     const double last_rad = heading_rad.empty() ? now_rad : heading_rad.back();
-    heading_rad.push_back(last_rad +
-                          std::remainder(now_rad - last_rad, 2.0 * std::numbers::pi));
+    heading_rad.push_back(last_rad + std::remainder(now_rad - last_rad, 2.0 * std::numbers::pi));
   }
   return heading_rad;
 }

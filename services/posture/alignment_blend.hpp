@@ -14,8 +14,8 @@ class AlignmentBlend {
   void Start(const Eigen::Quaterniond& q_old, const Eigen::Quaterniond& q_new, Time at,
              Duration span);
 
-  /// What is to be shown at `at` instead of `q_new`: Exp(s·Log(q_old ⊗ q_new*)) ⊗ q_new, with s from
-  /// 1 to 0 with no jump of the rate at either end, 1 − 3u² + 2u³.
+  /// What is to be shown at `at` instead of `q_new`: Exp(s·Log(q_old ⊗ q_new*)) ⊗ q_new, with s
+  /// from 1 to 0 with no jump of the rate at either end, 1 − 3u² + 2u³.
   [[nodiscard]] Eigen::Quaterniond Apply(const Eigen::Quaterniond& q_new, Time at);
 
   [[nodiscard]] bool active() const { return active_; }

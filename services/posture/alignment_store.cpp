@@ -196,8 +196,8 @@ Result<bool> AlignmentStore::Load(body::BodyDefinition& definition) const {
 fs::path AlignmentStore::ProfilePathOf(std::string_view name) const {
   std::string file = "profile_";
   for (const char c : name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                       (c >= '0' && c <= '9') || c == '-' || c == '_';
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_';
     file += plain ? c : '_';
   }
   return folder_ / (file + ".toml");

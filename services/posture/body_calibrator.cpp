@@ -56,9 +56,8 @@ Result<CalibrationOutcome> BodyCalibrator::Fit(const body::StandingPose& stance,
     return !stance.known[body::Index(motion.segment)];
   });
   for (const body::Segment segment : body::AllSegments()) {
-    const bool there =
-        std::any_of(walking.segments.begin(), walking.segments.end(),
-                    [&](const auto& motion) { return motion.segment == segment; });
+    const bool there = std::any_of(walking.segments.begin(), walking.segments.end(),
+                                   [&](const auto& motion) { return motion.segment == segment; });
     if ((tracked & BitOf(segment)) != 0 && !there) {
       outcome.left_out.push_back(segment);
     }
@@ -82,12 +81,12 @@ Result<CalibrationOutcome> BodyCalibrator::Finish(SegmentSet tracked, double fac
   }
   const double walked_s = ToSeconds(*newest - *started_at_);
   if (walked_s < kMinWalk_s) {
-    return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("walked {:.1f} s, needs at least {:.0f} s: go on", walked_s,
-                             kMinWalk_s)};
+    return Error{
+        ErrorCode::kInvalidArgument,
+        fmt::format("walked {:.1f} s, needs at least {:.0f} s: go on", walked_s, kMinWalk_s)};
   }
-  auto outcome = Fit(*stance_, log_.Extract(tracked, *newest, walked_s), tracked, facing_rad,
-                     common_heading);
+  auto outcome =
+      Fit(*stance_, log_.Extract(tracked, *newest, walked_s), tracked, facing_rad, common_heading);
   started_at_.reset();
   return outcome;
 }
@@ -212,10 +211,10 @@ std::string ApplyFit(const CalibrationOutcome& outcome, body::BodyDefinition& de
   for (const body::Segment segment : outcome.left_out) {
     doubts += fmt::format("; {}: not heard all the time", body::ToString(segment));
   }
-  return fmt::format("aligned {} segments from {:.0f} strides of {:.2f} s, headings within {:.0f} "
-                     "deg{}",
-                     aligned, outcome.fit.strides, outcome.fit.stride_s,
-                     units::DegFromRad(sigma_rad), doubts);
+  return fmt::format(
+      "aligned {} segments from {:.0f} strides of {:.2f} s, headings within {:.0f} "
+      "deg{}",
+      aligned, outcome.fit.strides, outcome.fit.stride_s, units::DegFromRad(sigma_rad), doubts);
 }
 
 }  // namespace limbcast::posture

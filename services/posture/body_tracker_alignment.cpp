@@ -53,8 +53,8 @@ void BodyTracker::FoldHeadings() {
 
 void BodyTracker::TrackHeadings(SegmentSet measured, Time at) {
   const std::optional<Time> before = std::exchange(headings_at_, at);
-  if (!config_.heading_tracking || definition_.heading != HeadingReference::kArbitrary ||
-      !before || at < *before) {
+  if (!config_.heading_tracking || definition_.heading != HeadingReference::kArbitrary || !before ||
+      at < *before) {
     return;
   }
   for (std::size_t i = 0; i < tracks_.size(); ++i) {

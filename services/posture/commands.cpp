@@ -164,8 +164,7 @@ std::string BodyCommands::WhyNotStill(const BodyTracker& tracker,
   return "";
 }
 
-CommandOutcome BodyCommands::TakeReferencePose(const roster::Command& command,
-                                               BodyTracker& tracker,
+CommandOutcome BodyCommands::TakeReferencePose(const roster::Command& command, BodyTracker& tracker,
                                                body::BodyDefinition& definition) const {
   const auto pose = body::ParseReferencePose(command.text.empty() ? "n_pose" : command.text);
   if (!pose) {
@@ -252,17 +251,19 @@ CommandOutcome BodyCommands::Calibrate(const roster::Command& command, BodyTrack
     if (const Status started = calibrator.Start(tracker.measured_at()); !started) {
       return Refused(started.error().message);
     }
-    return {.accepted = true, .message = "walk now, straight on as far as possible", .changes = false};
+    return {
+        .accepted = true, .message = "walk now, straight on as far as possible", .changes = false};
   }
   if (command.text == "cancel") {
     calibrator.Cancel();
     return {.accepted = true, .message = "calibration given up", .changes = false};
   }
   if (command.text != "finish") {
-    return Refused(fmt::format("calibration must be start, finish or cancel, is \"{}\"", command.text));
+    return Refused(
+        fmt::format("calibration must be start, finish or cancel, is \"{}\"", command.text));
   }
-  const auto outcome = calibrator.Finish(
-      tracker.tracked(), 0.0, definition.heading != HeadingReference::kArbitrary);
+  const auto outcome =
+      calibrator.Finish(tracker.tracked(), 0.0, definition.heading != HeadingReference::kArbitrary);
   if (!outcome) {
     return Refused(outcome.error().message);
   }

@@ -18,18 +18,17 @@ Status InRange(const char* key, double value, double low, double high) {
 }  // namespace
 
 Status Validate(const PostureConfig& config) {
-  for (const Status& status :
-       {InRange("workers", config.workers, 1, 64),
-        InRange("tick_deadline_s", config.tick_deadline_s, 0.0005, 1.0),
-        InRange("output_rate_hz", config.output_rate_hz, 0.0, 1000.0),
-        InRange("max_extrapolation_s", config.max_extrapolation_s, 0.0, 1.0),
-        InRange("missing_after_s", config.missing_after_s, 0.05, 600.0),
-        InRange("still_window_s", config.still_window_s, 0.05, 2.0),
-        InRange("still_limit_rad", config.still_limit_rad, 1e-6, 1.0),
-        InRange("body_height_m", config.body_height_m, body::kMinBodyHeight_m,
-                body::kMaxBodyHeight_m),
-        InRange("joint_softness_rad", config.joint_softness_rad, 0.001, 1.0),
-        InRange("blend_s", config.blend_s, 0.0, 5.0)}) {
+  for (const Status& status : {InRange("workers", config.workers, 1, 64),
+                               InRange("tick_deadline_s", config.tick_deadline_s, 0.0005, 1.0),
+                               InRange("output_rate_hz", config.output_rate_hz, 0.0, 1000.0),
+                               InRange("max_extrapolation_s", config.max_extrapolation_s, 0.0, 1.0),
+                               InRange("missing_after_s", config.missing_after_s, 0.05, 600.0),
+                               InRange("still_window_s", config.still_window_s, 0.05, 2.0),
+                               InRange("still_limit_rad", config.still_limit_rad, 1e-6, 1.0),
+                               InRange("body_height_m", config.body_height_m,
+                                       body::kMinBodyHeight_m, body::kMaxBodyHeight_m),
+                               InRange("joint_softness_rad", config.joint_softness_rad, 0.001, 1.0),
+                               InRange("blend_s", config.blend_s, 0.0, 5.0)}) {
     if (!status) {
       return status;
     }

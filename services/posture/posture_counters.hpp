@@ -36,7 +36,7 @@ inline constexpr std::size_t kCountCount = 16;
       "states.received",    "states.used",         "states.late",      "states.ignored",
       "states.unassigned",  "states.dropped",      "skeletons",        "skeletons.complete",
       "skeletons.deadline", "skeletons.overtaken", "skeletons.probes", "commands.accepted",
-      "commands.refused",   "definitions",         "publish.errors",     "calibrations"};
+      "commands.refused",   "definitions",         "publish.errors",   "calibrations"};
   return kNames[static_cast<std::size_t>(count)];
 }
 

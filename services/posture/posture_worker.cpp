@@ -223,7 +223,8 @@ CommandOutcome PostureWorker::UseProfile(const roster::Command& command, Body& b
                  : CommandOutcome{false, saved.error().message, false};
   }
   if (verb != "load") {
-    return {false, fmt::format("profile must be \"save NAME\" or \"load NAME\", is \"{}\"", command.text),
+    return {false,
+            fmt::format("profile must be \"save NAME\" or \"load NAME\", is \"{}\"", command.text),
             false};
   }
   body::BodyDefinition definition = body.tracker->definition();

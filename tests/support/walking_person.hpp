@@ -34,14 +34,13 @@ class WalkingPerson {
     simulation::Phase stand;
     stand.duration_s = 3600.0;
     motion_ = std::make_unique<simulation::PersonMotion>(*simulation::PersonMotion::Make(
-        *simulation::MakePersonShape(1.75), {.schedule = {.phases = {n_pose, walk, stand},
-                                                          .repeat_from = 2},
-                                             .start = {.heading_rad = facing_rad}}));
+        *simulation::MakePersonShape(1.75),
+        {.schedule = {.phases = {n_pose, walk, stand}, .repeat_from = 2},
+         .start = {.heading_rad = facing_rad}}));
     simulation::Random random(seed);
     for (std::size_t i = 0; i < body::kSegmentCount; ++i) {
-      mounting_[i] =
-          simulation::MakeMounting(static_cast<body::Segment>(i), motion_->shape(),
-                                   simulation::MountingStyle::kArbitrary, seed);
+      mounting_[i] = simulation::MakeMounting(static_cast<body::Segment>(i), motion_->shape(),
+                                              simulation::MountingStyle::kArbitrary, seed);
       sensor_heading_rad_[i] = random.Uniform(-std::numbers::pi, std::numbers::pi);
     }
   }
@@ -59,8 +58,7 @@ class WalkingPerson {
     const Eigen::Quaterniond turn = math::ExpSO3({0.0, 0.0, sensor_heading_rad_[i]});
     const Eigen::Vector3d gravity_m_s2(0.0, 0.0, simulation::kGravity_m_s2);
     return {.q_earth_sensor = turn * ideal.q_earth_sensor,
-            .accel_in_earth_m_s2 =
-                turn * (ideal.q_earth_sensor * ideal.accel_m_s2 - gravity_m_s2)};
+            .accel_in_earth_m_s2 = turn * (ideal.q_earth_sensor * ideal.accel_m_s2 - gravity_m_s2)};
   }
 
   [[nodiscard]] body::MotionRecord Record(const std::vector<body::Segment>& segments, double from_s,

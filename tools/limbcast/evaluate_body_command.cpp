@@ -35,8 +35,7 @@ Result<TimeSpan> ParseSpan(const std::string& option, const std::string& text) {
   const std::size_t colon = text.find(':');
   TimeSpan span;
   const auto read = [](const std::string& number, double& into) {
-    const auto [end, error] =
-        std::from_chars(number.data(), number.data() + number.size(), into);
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), into);
     return error == std::errc() && end == number.data() + number.size();
   };
   if (colon == std::string::npos || !read(text.substr(0, colon), span.from_s) ||
@@ -82,8 +81,7 @@ Result<gateway::RecordingOptions> AssignmentsOf(const std::vector<std::string>& 
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
-      return Error{ErrorCode::kInvalidArgument,
-                   "--sensor must be NAME=segment, is '" + text + "'"};
+      return Error{ErrorCode::kInvalidArgument, "--sensor must be NAME=segment, is '" + text + "'"};
     }
     options.assignments.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
@@ -107,8 +105,7 @@ int EvaluateBody(const BodyOptions& options) {
   trial.filter = options.filter;
   if (options.pose_s >= 0.0) {
     trial.reference_pose_s = options.pose_s;
-    trial.walk_until_s =
-        options.until_s > 0.0 ? options.until_s : ToSeconds(recording->duration());
+    trial.walk_until_s = options.until_s > 0.0 ? options.until_s : ToSeconds(recording->duration());
   } else {
     trial.posture.automatic_calibration = true;
   }

@@ -24,8 +24,8 @@ bool CountDown(const BodyGuide& guide, double seconds, const std::string& until)
   return true;
 }
 
-Result<std::string> Asked(const BodyGuide& guide, roster::CommandKind kind,
-                          const std::string& text, const std::vector<double>& numbers = {}) {
+Result<std::string> Asked(const BodyGuide& guide, roster::CommandKind kind, const std::string& text,
+                          const std::vector<double>& numbers = {}) {
   const auto reply = guide.ask(kind, text, numbers);
   if (!reply) {
     return reply.error();
@@ -66,8 +66,8 @@ Result<std::string> Walk(const BodyGuide& guide, const BodyGuideOptions& options
   guide.say(
       "Walk, as you always do, arms free. Straight on as far as there is room; turn and go on.");
   const bool walked = CountDown(guide, options.walk_s, "enough");
-  auto finished = Asked(guide, roster::CommandKind::kFunctionalCalibration,
-                        walked ? "finish" : "cancel");
+  auto finished =
+      Asked(guide, roster::CommandKind::kFunctionalCalibration, walked ? "finish" : "cancel");
   if (walked && finished) {
     return finished;
   }

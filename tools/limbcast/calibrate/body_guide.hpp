@@ -26,8 +26,8 @@ struct BodyGuideOptions {
   /// Heading of the person in the reference pose, where sensors know north.
   std::optional<double> facing_rad{};  // NOLINT(readability-redundant-member-init): lets callers
                                        // name some fields only
-  double countdown_s = 5.0;  ///< to get into the pose
-  double walk_s = 20.0;      ///< 0: no walk, for sensors with a magnetometer
+  double countdown_s = 5.0;            ///< to get into the pose
+  double walk_s = 20.0;                ///< 0: no walk, for sensors with a magnetometer
   /// Saved under this name at the end; "" = not.
   std::string profile{};  // NOLINT(readability-redundant-member-init): as above
 };

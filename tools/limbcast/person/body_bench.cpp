@@ -39,14 +39,13 @@ Result<std::unique_ptr<BodyBench>> BodyBench::Make(
   roster.body_id = kBody;
   roster.sensors = sensors;
   for (const roster::SensorAssignment& sensor : sensors) {
-    bench->tracks_.emplace(
-        sensor.sensor_uid,
-        std::make_unique<fusion::SensorTrack>(
-            kBody,
-            fusion::TrackPlan{.sensor_uid = sensor.sensor_uid,
-                              .segment = sensor.segment,
-                              .filters = {.name = options.filter, .beside = ""}},
-            factory, std::chrono::hours(24)));
+    bench->tracks_.emplace(sensor.sensor_uid,
+                           std::make_unique<fusion::SensorTrack>(
+                               kBody,
+                               fusion::TrackPlan{.sensor_uid = sensor.sensor_uid,
+                                                 .segment = sensor.segment,
+                                                 .filters = {.name = options.filter, .beside = ""}},
+                               factory, std::chrono::hours(24)));
   }
   (void)bench->tracker_->SetRoster(roster);
   return bench;

@@ -48,9 +48,9 @@ std::vector<const BodyFrame*> In(const BodyTrace& trace, const TimeSpan& span) {
 
 /// Known in nearly all of the frames: a lost sample is no reason to say nothing.
 bool Known(const std::vector<const BodyFrame*>& frames, Segment segment) {
-  const auto known =
-      std::count_if(frames.begin(), frames.end(),
-                    [&](const BodyFrame* frame) { return frame->known[body::Index(segment)]; });
+  const auto known = std::count_if(frames.begin(), frames.end(), [&](const BodyFrame* frame) {
+    return frame->known[body::Index(segment)];
+  });
   return !frames.empty() && static_cast<double>(known) > 0.9 * static_cast<double>(frames.size());
 }
 
@@ -139,8 +139,8 @@ void Sitting(const BodyTrace& trace, const TimeSpan& span, std::vector<BodyFigur
                          Mean(ThighAboutTrunk(frames, leg)), 70.0, 110.0});
     }
     if (Known(frames, leg.thigh) && Known(frames, leg.shank)) {
-      figures.push_back({fmt::format("sitting: {} knee", name), Mean(Angle(frames, leg.knee, 0)),
-                         70.0, 110.0});
+      figures.push_back(
+          {fmt::format("sitting: {} knee", name), Mean(Angle(frames, leg.knee, 0)), 70.0, 110.0});
     }
   }
 }
@@ -154,8 +154,8 @@ void Knees(const std::vector<const BodyFrame*>& frames, const std::string& walk,
       continue;
     }
     const std::vector<double> flexion = Angle(frames, leg.knee, 0);
-    const double rate_hz = static_cast<double>(frames.size() - 1) /
-                           (frames.back()->time_s - frames.front()->time_s);
+    const double rate_hz =
+        static_cast<double>(frames.size() - 1) / (frames.back()->time_s - frames.front()->time_s);
     const auto peaks = PeaksOf(flexion, 35.0, static_cast<std::size_t>(0.35 * rate_hz));
     double least_peak = kAnything;
     double most_peak = 0.0;
@@ -164,10 +164,10 @@ void Knees(const std::vector<const BodyFrame*>& frames, const std::string& walk,
       least_peak = std::min(least_peak, flexion[peaks[i]]);
       most_peak = std::max(most_peak, flexion[peaks[i]]);
       if (i > 0) {
-        least_bent = std::max(
-            least_bent,
-            *std::min_element(flexion.begin() + static_cast<std::ptrdiff_t>(peaks[i - 1]),
-                              flexion.begin() + static_cast<std::ptrdiff_t>(peaks[i])));
+        least_bent =
+            std::max(least_bent,
+                     *std::min_element(flexion.begin() + static_cast<std::ptrdiff_t>(peaks[i - 1]),
+                                       flexion.begin() + static_cast<std::ptrdiff_t>(peaks[i])));
       }
     }
     const std::string knee = fmt::format("{}: {} knee", walk, name);
@@ -192,8 +192,8 @@ void Knees(const std::vector<const BodyFrame*>& frames, const std::string& walk,
 
 /// Greatest correlation of an angle with itself one stride (0.7 to 2.2 s) later.
 double Periodicity(const std::vector<const BodyFrame*>& frames, const std::vector<double>& angle) {
-  const double rate_hz = static_cast<double>(frames.size() - 1) /
-                         (frames.back()->time_s - frames.front()->time_s);
+  const double rate_hz =
+      static_cast<double>(frames.size() - 1) / (frames.back()->time_s - frames.front()->time_s);
   const double mean = Mean(angle);
   double best = -1.0;
   for (auto lag = static_cast<std::size_t>(0.7 * rate_hz);
@@ -225,17 +225,17 @@ void Ranges(const std::vector<const BodyFrame*>& frames, const std::string& walk
       std::vector<double> angle = Angle(frames, joint, 0);
       std::sort(angle.begin(), angle.end());
       // 2 % from the end: one moment is no range.
-      const auto at = static_cast<std::size_t>((most ? 0.98 : 0.02) *
-                                               static_cast<double>(angle.size() - 1));
+      const auto at =
+          static_cast<std::size_t>((most ? 0.98 : 0.02) * static_cast<double>(angle.size() - 1));
       figures.push_back({fmt::format("{}: {} {}", walk, name, what), angle[at], low, high});
     };
-    for (const auto& [joint, what] : {std::pair{leg.hip, "hip"}, std::pair{leg.knee, "knee"},
-                                      std::pair{leg.ankle, "ankle"}}) {
+    for (const auto& [joint, what] :
+         {std::pair{leg.hip, "hip"}, std::pair{leg.knee, "knee"}, std::pair{leg.ankle, "ankle"}}) {
       const body::JointSegments segments = body::SegmentsOf(joint);
       if (Known(frames, *segments.parent) && Known(frames, segments.child)) {
-        figures.push_back({fmt::format("{}: {} {}, likeness of a stride with the next", walk, name,
-                                       what),
-                           Periodicity(frames, Angle(frames, joint, 0)), 0.5, 1.0});
+        figures.push_back(
+            {fmt::format("{}: {} {}, likeness of a stride with the next", walk, name, what),
+             Periodicity(frames, Angle(frames, joint, 0)), 0.5, 1.0});
       }
     }
     add(leg.hip, "hip, greatest flexion", true, 15.0, 55.0);
@@ -310,9 +310,9 @@ std::vector<BodyFigure> BodyFigures(const BodyTrace& trace, const BodyPhases& ph
       if (Known(there, segment) && Known(back, segment)) {
         const double turned =
             std::remainder(Heading_deg(back, segment) - Heading_deg(there, segment), 360.0);
-        figures.push_back({fmt::format("walks {} and {}: {} turned by", i, i + 1,
-                                       body::ToString(segment)),
-                           turned < 0.0 ? turned + 360.0 : turned, 168.0, 192.0});
+        figures.push_back(
+            {fmt::format("walks {} and {}: {} turned by", i, i + 1, body::ToString(segment)),
+             turned < 0.0 ? turned + 360.0 : turned, 168.0, 192.0});
       }
     }
   }
@@ -325,7 +325,10 @@ std::string FiguresText(const std::vector<BodyFigure>& figures) {
     const bool judged = figure.high < kAnything || figure.low > -kAnything;
     const std::string range =
         judged ? fmt::format("[{:.0f}, {:.0f}]", figure.low, figure.high) : "";
-    text += fmt::format("{:5} {:<66} {:7.1f} {}\n", !judged ? "" : figure.holds() ? "ok" : "NOT",
+    text += fmt::format("{:5} {:<66} {:7.1f} {}\n",
+                        !judged          ? ""
+                        : figure.holds() ? "ok"
+                                         : "NOT",
                         figure.name, figure.value, range);
   }
   return text;

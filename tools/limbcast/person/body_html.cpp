@@ -31,8 +31,8 @@ constexpr std::array<Plot, 3> kPlots = {{
 }};
 
 double Y(double angle_deg) {
-  const double share = (std::clamp(angle_deg, kLow_deg, kHigh_deg) - kLow_deg) /
-                       (kHigh_deg - kLow_deg);
+  const double share =
+      (std::clamp(angle_deg, kLow_deg, kHigh_deg) - kLow_deg) / (kHigh_deg - kLow_deg);
   return kHeight * (1.0 - share);
 }
 

@@ -30,12 +30,12 @@ std::vector<WornSensor> Wear(const SimulatedPersonOptions& person,
   std::vector<WornSensor> sensors;
   for (const body::Segment segment : SixteenSegments()) {
     const std::string name(body::ToString(segment));
-    sensors.push_back({segment, SensorUid{body::Index(segment) + 1},
-                       simulation::MakeMounting(
-                           segment, shape, simulation::MountingStyle::kArbitrary, person.seed),
-                       simulation::MargModel(simulation::MakeMargErrors(person.noise),
-                                             person.rate_hz,
-                                             simulation::Random(person.seed, name))});
+    sensors.push_back(
+        {segment, SensorUid{body::Index(segment) + 1},
+         simulation::MakeMounting(segment, shape, simulation::MountingStyle::kArbitrary,
+                                  person.seed),
+         simulation::MargModel(simulation::MakeMargErrors(person.noise), person.rate_hz,
+                               simulation::Random(person.seed, name))});
   }
   return sensors;
 }
@@ -72,8 +72,8 @@ void Compare(const Orientations& q, const Orientations& truth, Sums& sums) {
     return math::AngleBetween_rad(a, b);
   };
   const std::size_t pelvis = body::Index(body::Segment::kPelvis);
-  const Eigen::Quaterniond back = math::ExpSO3(
-      {0.0, 0.0, -math::Heading_rad(q[pelvis] * truth[pelvis].conjugate())});
+  const Eigen::Quaterniond back =
+      math::ExpSO3({0.0, 0.0, -math::Heading_rad(q[pelvis] * truth[pelvis].conjugate())});
   sums.frames += 1.0;
   for (const body::Segment segment : SixteenSegments()) {
     const std::size_t i = body::Index(segment);

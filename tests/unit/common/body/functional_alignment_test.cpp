@@ -30,8 +30,7 @@ double WorstError_rad(const WalkingPerson& person, const FunctionalFit& fit, dou
   for (const SegmentFit& one : fit.segments) {
     const SensorAlignment alignment(one.q_sensor_segment, one.heading_correction_rad);
     for (double t_s = 4.0; t_s < 24.0; t_s += 0.5) {
-      const Eigen::Quaterniond q =
-          alignment.Apply(person.Read(one.segment, t_s).q_earth_sensor);
+      const Eigen::Quaterniond q = alignment.Apply(person.Read(one.segment, t_s).q_earth_sensor);
       const Eigen::Quaterniond truth =
           HeadingRotation(facing_rad - true_facing_rad) * person.Truth(one.segment, t_s);
       worst_rad = std::max(worst_rad, math::AngleBetween_rad(q, truth));
@@ -64,10 +63,9 @@ TEST(FunctionalAlignmentTest, WalkingRoundABendIsAsGood) {
 }
 
 TEST(FunctionalAlignmentTest, AShareOfTheSensorsIsEnough) {
-  const std::vector<Segment> legs{Segment::kPelvis,       Segment::kRightUpperLeg,
-                                  Segment::kRightLowerLeg, Segment::kRightFoot,
-                                  Segment::kLeftUpperLeg,  Segment::kLeftLowerLeg,
-                                  Segment::kLeftFoot};
+  const std::vector<Segment> legs{
+      Segment::kPelvis,       Segment::kRightUpperLeg, Segment::kRightLowerLeg, Segment::kRightFoot,
+      Segment::kLeftUpperLeg, Segment::kLeftLowerLeg,  Segment::kLeftFoot};
   const WalkingPerson person(4);
   const auto fit = FitFunctionalAlignment(InputOf(person, legs));
   ASSERT_TRUE(fit.ok()) << fit.error().message;

@@ -30,8 +30,7 @@ TEST(GaitTest, WithoutSensorsOnTheLegsTheTrunkGivesTheSameStride) {
 
 TEST(GaitTest, StandingIsNoWalking) {
   const WalkingPerson person;
-  EXPECT_FALSE(
-      FindGait(Smooth(person.Record(WalkingPerson::Sixteen(), 45.0, 60.0), 0.12), 50.0));
+  EXPECT_FALSE(FindGait(Smooth(person.Record(WalkingPerson::Sixteen(), 45.0, 60.0), 0.12), 50.0));
 }
 
 TEST(GaitTest, TheWalkIsFoundBetweenStandingBeforeAndAfter) {

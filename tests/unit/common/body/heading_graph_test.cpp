@@ -31,8 +31,8 @@ TEST(HeadingGraphTest, ChainsOfTurnsSettleWhichWayAlongTheLineIsMeant) {
 }
 
 TEST(HeadingGraphTest, AnOutlierCountsLess) {
-  const HeadingGraphSolution solution = SolveHeadingGraph(
-      1, {{0, 0.5, 0.1}, {0, 0.52, 0.1}, {0, 0.48, 0.1}, {0, 1.5, 0.1}}, {});
+  const HeadingGraphSolution solution =
+      SolveHeadingGraph(1, {{0, 0.5, 0.1}, {0, 0.52, 0.1}, {0, 0.48, 0.1}, {0, 1.5, 0.1}}, {});
   EXPECT_LT(std::abs(solution.direction_rad[0] - 0.5), 0.15) << "the plain mean is 0.75";
   EXPECT_GT(solution.misfit[0], 2.0) << "and the disagreement shows";
 }
@@ -44,8 +44,7 @@ TEST(HeadingGraphTest, WeightsAreThoseOfTheSigmas) {
 }
 
 TEST(HeadingGraphTest, ANodeThatNothingConnectsIsUnknown) {
-  const HeadingGraphSolution solution =
-      SolveHeadingGraph(3, {{0, 0.5, 0.1}}, {{0, 1, 0.2, 0.1}});
+  const HeadingGraphSolution solution = SolveHeadingGraph(3, {{0, 0.5, 0.1}}, {{0, 1, 0.2, 0.1}});
   EXPECT_NEAR(solution.direction_rad[1], 0.3, 0.01);
   EXPECT_GT(solution.sigma_rad[2], 3.0);
 }

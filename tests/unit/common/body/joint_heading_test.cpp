@@ -23,19 +23,18 @@ TEST_P(JointHeadingTest, TheTurnBetweenTheSensorsIsFoundOnTheWholeCircle) {
     ASSERT_TRUE(joint.has_value());
     const double expected_rad =
         person.sensor_heading_rad(parent) - person.sensor_heading_rad(child);
-    const double error_rad =
-        std::remainder(joint->turn_rad - expected_rad, 2.0 * std::numbers::pi);
+    const double error_rad = std::remainder(joint->turn_rad - expected_rad, 2.0 * std::numbers::pi);
     // A perfect joint; what is left is the smoothing, which bends fast swings.
     EXPECT_LT(std::abs(error_rad), 0.06) << "seed " << seed;
     EXPECT_LT(joint->misfit, 0.35);
   }
 }
-INSTANTIATE_TEST_SUITE_P(
-    Joints, JointHeadingTest,
-    ::testing::Values(std::pair{Segment::kRightUpperLeg, Segment::kRightLowerLeg},
-                      std::pair{Segment::kLeftLowerLeg, Segment::kLeftFoot},
-                      std::pair{Segment::kLeftUpperArm, Segment::kLeftForeArm},
-                      std::pair{Segment::kRightForeArm, Segment::kRightHand}));
+INSTANTIATE_TEST_SUITE_P(Joints, JointHeadingTest,
+                         ::testing::Values(std::pair{Segment::kRightUpperLeg,
+                                                     Segment::kRightLowerLeg},
+                                           std::pair{Segment::kLeftLowerLeg, Segment::kLeftFoot},
+                                           std::pair{Segment::kLeftUpperArm, Segment::kLeftForeArm},
+                                           std::pair{Segment::kRightForeArm, Segment::kRightHand}));
 
 TEST(JointHeadingEdgeTest, WithoutMotionTheTurnIsUnknownAndSaysSo) {
   const WalkingPerson person;

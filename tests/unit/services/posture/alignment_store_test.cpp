@@ -205,8 +205,7 @@ TEST_F(AlignmentStoreTest, NamesOfProfilesAreCheckedAndCannotLeaveTheFolder) {
   EXPECT_EQ(store_.ProfilePathOf("../../etc/x").filename(), "profile_______etc_x.toml");
   body::BodyDefinition definition = aligned_;
   EXPECT_EQ(store_.LoadProfile("Bob", definition).error().message, "no profile \"Bob\"");
-  EXPECT_EQ(AlignmentStore("").SaveProfile("Anna", aligned_).error().code,
-            ErrorCode::kUnavailable);
+  EXPECT_EQ(AlignmentStore("").SaveProfile("Anna", aligned_).error().code, ErrorCode::kUnavailable);
 }
 
 }  // namespace

@@ -79,8 +79,7 @@ TEST_F(BodyCalibratorTest, ASensorThatWasNotHeardIsNamedAndTheOthersAreAligned) 
   calibrator_.NoteStance(person_.Standing(segments_), At(4.0));
   ASSERT_TRUE(calibrator_.Start(At(4.0)).ok());
   (void)Run(4.0, 24.0, false);
-  const auto outcome =
-      calibrator_.Finish(tracked_ | BitOf(Segment::kRightToe), 0.0, false);
+  const auto outcome = calibrator_.Finish(tracked_ | BitOf(Segment::kRightToe), 0.0, false);
   ASSERT_TRUE(outcome.ok());
   body::BodyDefinition definition = *body::MakeDefaultBody(BodyId{1});
   const std::string text = ApplyFit(*outcome, definition);

@@ -36,10 +36,9 @@ class AutomaticCalibrationTest : public ::testing::Test {
       rig.Advance(20ms);
       for (const Segment segment : segments_) {
         const auto reading = person_.Read(segment, t_s);
-        const Eigen::Quaterniond turn = body::HeadingRotation(
-            turned_rad * static_cast<double>(1 + body::Index(segment)));
-        auto state =
-            MakeState(kBody, segment, rig.clock.Now(), turn * reading.q_earth_sensor);
+        const Eigen::Quaterniond turn =
+            body::HeadingRotation(turned_rad * static_cast<double>(1 + body::Index(segment)));
+        auto state = MakeState(kBody, segment, rig.clock.Now(), turn * reading.q_earth_sensor);
         state.heading = HeadingReference::kArbitrary;
         state.free_accel_in_earth_m_s2 = (turn * reading.accel_in_earth_m_s2).cast<float>();
         rig.Send(state);
@@ -49,9 +48,9 @@ class AutomaticCalibrationTest : public ::testing::Test {
   double WorstError_rad(const PostureRig& rig, double t_s) const {
     double worst_rad = 0.0;
     for (const Segment segment : segments_) {
-      worst_rad = std::max(
-          worst_rad, math::AngleBetween_rad(rig.Last(segment).q_earth_segment.cast<double>(),
-                                            person_.Truth(segment, t_s)));
+      worst_rad = std::max(worst_rad,
+                           math::AngleBetween_rad(rig.Last(segment).q_earth_segment.cast<double>(),
+                                                  person_.Truth(segment, t_s)));
     }
     return worst_rad;
   }
@@ -103,8 +102,7 @@ TEST_F(AutomaticCalibrationTest, HeadingsThatDriftedAreDrawnTogetherAndClientsSe
         const auto reading = person_.Read(segment, t_s);
         const Eigen::Quaterniond turn =
             body::HeadingRotation(segment == Segment::kLeftUpperLeg ? 0.3 : 0.0);
-        auto state =
-            MakeState(kBody, segment, rig.clock.Now(), turn * reading.q_earth_sensor);
+        auto state = MakeState(kBody, segment, rig.clock.Now(), turn * reading.q_earth_sensor);
         state.heading = HeadingReference::kArbitrary;
         rig.Send(state);
       }
@@ -113,8 +111,8 @@ TEST_F(AutomaticCalibrationTest, HeadingsThatDriftedAreDrawnTogetherAndClientsSe
   const auto Apart_rad = [&] {
     const auto left = rig.Last(Segment::kLeftUpperLeg).q_earth_segment.cast<double>();
     const auto right = rig.Last(Segment::kRightUpperLeg).q_earth_segment.cast<double>();
-    return std::abs(std::remainder(
-        math::Heading_rad(left) - math::Heading_rad(right), 2.0 * std::numbers::pi));
+    return std::abs(
+        std::remainder(math::Heading_rad(left) - math::Heading_rad(right), 2.0 * std::numbers::pi));
   };
   Drift(20.0, 20.5);
   EXPECT_GT(Apart_rad(), 0.15);

@@ -18,7 +18,8 @@ using ::testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
 
-/// 20 s at 50 Hz in which the shanks bend to `peak_deg` once a second, the left half a second later.
+/// 20 s at 50 Hz in which the shanks bend to `peak_deg` once a second, the left half a second
+/// later.
 BodyTrace Walker(double peak_deg, double facing_rad) {
   BodyTrace trace;
   for (int i = 0; i < 1000; ++i) {
@@ -63,10 +64,9 @@ TEST(BodyFiguresTest, KneesOfAWalkAreMeasuredStrideByStride) {
 TEST(BodyFiguresTest, AKneeThatBendsTooFarDoesNotHold) {
   const auto figures =
       BodyFigures(Walker(95.0, 0.7), {.standing = {}, .sitting = {}, .walks = {{2.0, 12.0}}});
-  const auto found =
-      std::find_if(figures.begin(), figures.end(), [](const BodyFigure& figure) {
-        return figure.name == "walk 1: right knee, greatest peak of flexion";
-      });
+  const auto found = std::find_if(figures.begin(), figures.end(), [](const BodyFigure& figure) {
+    return figure.name == "walk 1: right knee, greatest peak of flexion";
+  });
   ASSERT_NE(found, figures.end());
   EXPECT_FALSE(found->holds());
   EXPECT_THAT(FiguresText({*found}), HasSubstr("NOT"));
@@ -92,8 +92,7 @@ TEST(BodyFiguresTest, UprightBentAndTurnedPeopleAreTold) {
   EXPECT_NEAR(Value(figures, "sitting: right thigh about trunk"), 80.0, 0.1);
   EXPECT_NEAR(Value(figures, "sitting: right knee"), 80.0, 0.1);
   EXPECT_NEAR(Value(figures, "walks 1 and 2: pelvis turned by"), 180.0, 1e-6);
-  EXPECT_NEAR(Value(figures, "walk 2: headings of trunk and legs, greatest difference"), 20.0,
-              0.1);
+  EXPECT_NEAR(Value(figures, "walk 2: headings of trunk and legs, greatest difference"), 20.0, 0.1);
 }
 
 TEST(BodyFiguresTest, PeaksAreGreatestOfTheirNeighboursAndNotAtTheEnds) {

@@ -38,8 +38,8 @@ void ExpectAllHold(const std::vector<BodyFigure>& figures, std::size_t at_least)
 
 TEST(BodyTrialTest, AWholePersonWithoutMagnetometersIsCalibratedByItselfAndBelievable) {
   LIMBCAST_SKIP_WITHOUT_SHARED("data/fullbody");
-  const auto recording = gateway::ReadRecording(
-      *test_support::SharedPath("data/fullbody") / "walking_fullbody.hdf5");
+  const auto recording =
+      gateway::ReadRecording(*test_support::SharedPath("data/fullbody") / "walking_fullbody.hdf5");
   ASSERT_TRUE(recording.ok()) << recording.error().message;
   BodyTrialOptions options;
   options.posture.automatic_calibration = true;
@@ -85,8 +85,8 @@ void Replay(const gateway::Recording& recording, posture::PostureRig& rig) {
 
 TEST(BodyTrialTest, TheSameHoldsForTheSkeletonTopicAndAProfileFromTheDisk) {
   LIMBCAST_SKIP_WITHOUT_SHARED("data/fullbody");
-  const auto recording = gateway::ReadRecording(
-      *test_support::SharedPath("data/fullbody") / "walking_fullbody.hdf5");
+  const auto recording =
+      gateway::ReadRecording(*test_support::SharedPath("data/fullbody") / "walking_fullbody.hdf5");
   ASSERT_TRUE(recording.ok()) << recording.error().message;
   posture::PostureConfig config;
   config.automatic_calibration = true;
@@ -146,7 +146,8 @@ TEST(BodyTrialTest, SensorsWithOrientationOnBoardAreCalibratedFromTheFirstSample
   ASSERT_TRUE(trace.ok()) << trace.error().message;
   ASSERT_TRUE(trace->calibrated) << trace->events.back();
   std::vector<BodyFigure> figures = BodyFigures(*trace, kLowerBody);
-  // That knees stay in the sagittal plane is asked of walking straight on; a third of this is turns.
+  // That knees stay in the sagittal plane is asked of walking straight on; a third of this is
+  // turns.
   std::erase_if(figures, [](const BodyFigure& figure) {
     return figure.name.find("out of the sagittal plane") != std::string::npos;
   });
@@ -175,11 +176,10 @@ TEST(BodyTrialTest, TurningTheWholeRecordingAboutTheVerticalTurnsThePersonAndNot
         const std::size_t s = body::Index(segment);
         if (one.known[s] && other.known[s]) {
           // The posture: every segment about the pelvis.
-          worst_rad = std::max(worst_rad, math::AngleBetween_rad(
-                                              one.q_earth_segment[0].conjugate() *
-                                                  one.q_earth_segment[s],
-                                              other.q_earth_segment[0].conjugate() *
-                                                  other.q_earth_segment[s]));
+          worst_rad = std::max(
+              worst_rad, math::AngleBetween_rad(
+                             one.q_earth_segment[0].conjugate() * one.q_earth_segment[s],
+                             other.q_earth_segment[0].conjugate() * other.q_earth_segment[s]));
         }
       }
     }
