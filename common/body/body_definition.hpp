@@ -30,6 +30,8 @@ struct SegmentDefinition {
   Eigen::Quaterniond q_sensor_segment = Eigen::Quaterniond::Identity();
   double heading_correction_rad = 0.0;  ///< about earth z; from heading resets
   bool aligned = false;  ///< q_sensor_segment comes from a calibration, not from the default
+  /// How good that calibration was, 0 (no better than none) to 1. Does not travel.
+  float alignment_quality = 1.0F;
   /// Joint limits about the segment's parent, x y z of the rotation vector [rad]; min > max means
   /// none.
   Eigen::Vector3d joint_min_rad = Eigen::Vector3d::Constant(1.0);

@@ -147,9 +147,10 @@ double Forwardness(const FunctionalInput& input, const std::vector<SmoothMotion>
     const bool knee = segment == Segment::kRightLowerLeg || segment == Segment::kLeftLowerLeg;
     const bool elbow = segment == Segment::kRightForeArm || segment == Segment::kLeftForeArm;
     const std::ptrdiff_t parent = ParentWithSensor(motions, segment);
-    if ((!knee && !elbow) || parent < 0 ||
-        ParentOf(segment) != motions[static_cast<std::size_t>(parent)].segment ||
-        input.standing.pose != ReferencePose::kNPose) {
+    // Arms that were held out in the stance say nothing of how elbows bend in the walk.
+    const bool bends = knee || (elbow && input.standing.pose == ReferencePose::kNPose);
+    if (!bends || parent < 0 ||
+        ParentOf(segment) != motions[static_cast<std::size_t>(parent)].segment) {
       continue;
     }
     const auto p = static_cast<std::size_t>(parent);

@@ -39,6 +39,9 @@ std::string Write(const body::BodyDefinition& definition) {
         body::ToString(segment.segment), segment.sensor_uid.value, segment.aligned, q.w(), q.x(),
         q.y(), q.z(), segment.heading_correction_rad, Vector(segment.p_parent_segment_m),
         Vector(segment.p_segment_end_m));
+    text += segment.alignment_quality < 1.0F
+                ? fmt::format("alignment_quality = {}\n", segment.alignment_quality)
+                : "";
     text += segment.length_measured ? "length_measured = true\n" : "";
   }
   // Read back to know that nothing is cut off.
@@ -70,6 +73,7 @@ void ReadSegment(const config::Section& section, body::SegmentDefinition& segmen
   segment.p_parent_segment_m = ReadVector(section, "p_parent_segment_m");
   segment.p_segment_end_m = ReadVector(section, "p_segment_end_m");
   segment.length_measured = section.Read("length_measured", false);
+  segment.alignment_quality = static_cast<float>(section.Read("alignment_quality", 1.0, 0.0, 1.0));
 }
 
 /// Puts what `path` holds over a definition; `any_body`: whoever's it is.
@@ -108,6 +112,7 @@ Status ReadDefinition(const fs::path& path, bool any_body, body::BodyDefinition&
         into.p_parent_segment_m = read.p_parent_segment_m;
         into.p_segment_end_m = read.p_segment_end_m;
         into.length_measured = read.length_measured;
+        into.alignment_quality = read.alignment_quality;
       }
     }
   }
@@ -241,6 +246,7 @@ Result<std::size_t> AlignmentStore::LoadProfile(std::string_view name,
     if (from.aligned && from.sensor_uid == into.sensor_uid) {
       into.q_sensor_segment = from.q_sensor_segment;
       into.heading_correction_rad = from.heading_correction_rad;
+      into.alignment_quality = from.alignment_quality;
       into.aligned = true;
       ++aligned;
     }

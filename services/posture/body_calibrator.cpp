@@ -204,6 +204,8 @@ std::string ApplyFit(const CalibrationOutcome& outcome, body::BodyDefinition& de
       segment.q_sensor_segment = fit.q_sensor_segment;
       segment.heading_correction_rad = fit.heading_correction_rad;
       segment.aligned = true;
+      segment.alignment_quality =
+          static_cast<float>(std::clamp(1.0 - fit.sigma_rad / body::kMaxFitSigma_rad, 0.0, 1.0));
       sigma_rad = std::max(sigma_rad, fit.sigma_rad);
       ++aligned;
     }

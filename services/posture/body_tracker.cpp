@@ -72,6 +72,7 @@ bool BodyTracker::SetRoster(const roster::RosterEntry& entry) {
       segment.q_sensor_segment.setIdentity();
       segment.heading_correction_rad = 0.0;
       segment.aligned = false;
+      segment.alignment_quality = 1.0F;
     }
     segment.sensor_uid = uid;
     tracks_[body::Index(segment.segment)].started = false;
@@ -233,6 +234,7 @@ void BodyTracker::PoseSegments(Time at, SegmentSet measured, SegmentSet missing)
     pose_.confidence[i] =
         Confidence({.sigma_rad = track.last.sigma_rad,
                     .aligned = track.aligned,
+                    .alignment_quality = segment.alignment_quality,
                     .degraded = track.last.degraded,
                     .disturbed = track.last.magnetic_state == MagneticState::kDisturbed,
                     .age = (measured & bit) != 0 ? Duration::zero() : age});

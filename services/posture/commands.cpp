@@ -200,6 +200,7 @@ CommandOutcome BodyCommands::TakeReferencePose(const roster::Command& command, B
           body::HeadingRotation(facing_rad) * body::ReferenceOrientation(*pose, segment.segment));
       segment.q_sensor_segment = alignment.q_sensor_segment();
       segment.aligned = true;
+      segment.alignment_quality = 1.0F;
     }
   }
   tracker.calibrator().NoteStance(stance, tracker.measured_at());
@@ -239,6 +240,7 @@ CommandOutcome BodyCommands::ResetMounting(const roster::Command& command,
                                    body::HeadingRotation(facing_rad));
     segment.q_sensor_segment = alignment.q_sensor_segment();
     segment.aligned = true;
+    segment.alignment_quality = 1.0F;
     ++count;
   }
   return {true, fmt::format("mounting of {} segment(s) taken anew", count)};
@@ -324,6 +326,7 @@ CommandOutcome BodyCommands::Undo(const BodyTracker& tracker, body::BodyDefiniti
       segment.q_sensor_segment = old.q_sensor_segment;
       segment.heading_correction_rad = old.heading_correction_rad;
       segment.aligned = old.aligned;
+      segment.alignment_quality = old.alignment_quality;
     }
   }
   return {true, fmt::format("took revision {} back, {} step(s) left", tracker.definition().revision,

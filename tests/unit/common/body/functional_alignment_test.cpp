@@ -62,6 +62,21 @@ TEST(FunctionalAlignmentTest, WalkingRoundABendIsAsGood) {
   EXPECT_LT(WorstError_rad(person, *fit, 0.0, 0.0), 10.0 * kDegree_rad);
 }
 
+TEST(FunctionalAlignmentTest, TheTPoseServesAsWell) {
+  const WalkingPerson person(6, 0.5);
+  FunctionalInput input = InputOf(person, WalkingPerson::Sixteen());
+  input.standing.pose = ReferencePose::kTPose;
+  for (const Segment segment : WalkingPerson::Sixteen()) {
+    input.standing.q_earth_sensor[Index(segment)] =
+        HeadingRotation(person.sensor_heading_rad(segment) + 0.5) *
+        ReferenceOrientation(ReferencePose::kTPose, segment) *
+        person.q_sensor_segment(segment).conjugate();
+  }
+  const auto fit = FitFunctionalAlignment(input);
+  ASSERT_TRUE(fit.ok()) << fit.error().message;
+  EXPECT_LT(WorstError_rad(person, *fit, 0.0, 0.5), 10.0 * kDegree_rad);
+}
+
 TEST(FunctionalAlignmentTest, AShareOfTheSensorsIsEnough) {
   const std::vector<Segment> legs{
       Segment::kPelvis,       Segment::kRightUpperLeg, Segment::kRightLowerLeg, Segment::kRightFoot,

@@ -34,6 +34,7 @@ class AlignmentStoreTest : public ::testing::Test {
       segment.q_sensor_segment =
           math::ExpSO3({0.1 * static_cast<double>(body::Index(segment.segment)), -0.7, 1.0 / 3.0});
       segment.heading_correction_rad = -1.0 / 7.0;
+      segment.alignment_quality = body::Index(segment.segment) % 2 == 0 ? 1.0F : 0.625F;
       segment.length_measured = body::Index(segment.segment) % 3 == 0;
     }
   }
@@ -74,6 +75,7 @@ TEST_F(AlignmentStoreTest, WhatIsSavedComesBackToTheLastBit) {
               aligned_.segments[i].heading_correction_rad);
     EXPECT_TRUE(loaded.segments[i].p_segment_end_m == aligned_.segments[i].p_segment_end_m);
     EXPECT_TRUE(loaded.segments[i].aligned);
+    EXPECT_EQ(loaded.segments[i].alignment_quality, aligned_.segments[i].alignment_quality);
     EXPECT_EQ(loaded.segments[i].length_measured, aligned_.segments[i].length_measured);
   }
 }

@@ -85,6 +85,8 @@ TEST_F(BodyCalibratorTest, ASensorThatWasNotHeardIsNamedAndTheOthersAreAligned) 
   const std::string text = ApplyFit(*outcome, definition);
   EXPECT_THAT(text, HasSubstr("aligned 16 segments"));
   EXPECT_THAT(text, HasSubstr("right_toe: not heard all the time"));
+  EXPECT_GT(definition.segments[0].alignment_quality, 0.3F) << "and the confidence knows";
+  EXPECT_LT(definition.segments[0].alignment_quality, 1.0F);
   EXPECT_EQ(std::count_if(definition.segments.begin(), definition.segments.end(),
                           [](const auto& segment) { return segment.aligned; }),
             16);
