@@ -95,12 +95,14 @@ double PendulumForwardness(const std::vector<Eigen::Vector3d>& accel_m_s2, doubl
   double vu = 0.0;
   double vv = 0.0;
   double uu = 0.0;
-  for (std::size_t i = half_stride / 2; i + half_stride / 2 + 1 < velocity.size(); ++i) {
+  const std::size_t half_step = half_stride / 2;
+  const auto step = static_cast<double>(2 * half_step + 1);
+  for (std::size_t i = half_step; i + half_step + 1 < velocity.size(); ++i) {
     double mean_v = 0.0;
     double mean_u = 0.0;
-    for (std::size_t k = i - half_stride / 2; k <= i + half_stride / 2; ++k) {
-      mean_v += velocity[k] / static_cast<double>(2 * (half_stride / 2) + 1);
-      mean_u += up[k] / static_cast<double>(2 * (half_stride / 2) + 1);
+    for (std::size_t k = i - half_step; k <= i + half_step; ++k) {
+      mean_v += velocity[k] / step;
+      mean_u += up[k] / step;
     }
     const double v = velocity[i] - mean_v;
     const double u = up[i] - mean_u;

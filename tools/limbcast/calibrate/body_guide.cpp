@@ -88,7 +88,12 @@ Result<std::string> GuideBody(const BodyGuide& guide, const BodyGuideOptions& op
     return done;
   }
   guide.say(*done);
-  return Asked(guide, roster::CommandKind::kProfile, "save " + options.profile);
+  auto saved = Asked(guide, roster::CommandKind::kProfile, "save " + options.profile);
+  if (!saved) {
+    return Error{saved.error().code, "the alignment is in force, but profile " + options.profile +
+                                         " was not saved: " + saved.error().message};
+  }
+  return saved;
 }
 
 }  // namespace limbcast::tool

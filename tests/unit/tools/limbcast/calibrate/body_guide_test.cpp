@@ -78,6 +78,13 @@ TEST_F(BodyGuideTest, GivingUpWhileWalkingChangesNothing) {
   EXPECT_THAT(asked_, ElementsAre("0 n_pose", "5 start", "5 cancel", "4 "));
 }
 
+TEST_F(BodyGuideTest, AProfileThatCannotBeSavedIsToldApartFromAnAlignmentThatFailed) {
+  refusals_ = {"", "posture.state_dir is empty: nothing is kept"};
+  EXPECT_EQ(Guide({.walk_s = 0.0, .profile = "Anna"}).error().message,
+            "the alignment is in force, but profile Anna was not saved: posture.state_dir is "
+            "empty: nothing is kept");
+}
+
 TEST_F(BodyGuideTest, FacingGoesWithThePose) {
   ASSERT_TRUE(Guide({.pose = "t_pose", .facing_rad = 1.5, .walk_s = 0.0}).ok());
   EXPECT_EQ(numbers_, std::vector<double>{1.5});
