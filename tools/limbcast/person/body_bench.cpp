@@ -26,7 +26,7 @@ Result<std::unique_ptr<BodyBench>> BodyBench::Make(
   }
   std::unique_ptr<BodyBench> bench(new BodyBench(options));  // NOLINT: private constructor
   bench->tracker_ = std::make_unique<posture::BodyTracker>(
-      options.posture, options.restored ? *options.restored : std::move(*definition),
+      options.posture, options.restored.value_or(*definition),
       [take = std::move(on_skeleton)](body::Skeleton& skeleton, posture::TickEnd, bool live) {
         if (live) {
           take(skeleton);

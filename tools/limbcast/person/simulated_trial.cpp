@@ -144,6 +144,7 @@ Result<SimulatedTrace> RunSimulatedTrial(const SimulatedPersonOptions& person,
   }
   std::vector<WornSensor> sensors = Wear(person, *shape);
   std::vector<roster::SensorAssignment> assignments;
+  assignments.reserve(sensors.size());
   for (const WornSensor& sensor : sensors) {
     assignments.push_back({sensor.uid, sensor.segment});
   }
