@@ -21,9 +21,9 @@ TEST(SessionCodecTest, WhatIsTooLongIsRefusedByName) {
 
 TEST(SessionCodecTest, NumbersThatAreNoEnumeratorsAreRefused) {
   wire::Command command;
-  command.kind(5);
+  command.kind(8);
   ExpectCorrupt<roster::Command>(command,
-                                 "command.kind has 5 as its number, at most 4 are allowed");
+                                 "command.kind has 8 as its number, at most 7 are allowed");
   wire::JoinRequest request;
   request.role(3);
   ExpectCorrupt<roster::JoinRequest>(
