@@ -50,4 +50,15 @@ struct BodyDefinition {
   std::vector<SegmentDefinition> segments;  ///< every parent before its children; at most 32
 };
 
+/// The row of a segment; null when the body does not have it.
+[[nodiscard]] const SegmentDefinition* Find(const BodyDefinition& body, Segment segment);
+[[nodiscard]] SegmentDefinition* Find(BodyDefinition& body, Segment segment);
+
+/// Takes over where the joints of a segment are, and whether somebody measured that.
+void TakeDimensions(const SegmentDefinition& from, SegmentDefinition& into);
+
+/// Takes over how the sensor sits on a segment, with its heading and quality; the sensor itself
+/// stays. From SegmentDefinition(): forgets it.
+void TakeAlignment(const SegmentDefinition& from, SegmentDefinition& into);
+
 }  // namespace limbcast::body

@@ -21,12 +21,6 @@ constexpr std::array<Leg, 2> kLegs = {
     {{Segment::kRightUpperLeg, Segment::kRightLowerLeg, Segment::kRightFoot, Segment::kRightToe},
      {Segment::kLeftUpperLeg, Segment::kLeftLowerLeg, Segment::kLeftFoot, Segment::kLeftToe}}};
 
-const SegmentDefinition* Find(const BodyDefinition& body, Segment segment) {
-  const auto found = std::find_if(body.segments.begin(), body.segments.end(),
-                                  [&](const SegmentDefinition& s) { return s.segment == segment; });
-  return found == body.segments.end() ? nullptr : &*found;
-}
-
 std::uint32_t Bit(Segment segment) { return 1U << Index(segment); }
 
 void AddFoot(const Leg& leg, const BodyDefinition& body, std::vector<ContactPoint>& points) {

@@ -101,18 +101,6 @@ Error Invalid(std::string message) {
   return Error{ErrorCode::kInvalidArgument, std::move(message)};
 }
 
-const SegmentDefinition* Find(const BodyDefinition& body, Segment segment) {
-  const auto found = std::find_if(body.segments.begin(), body.segments.end(),
-                                  [&](const SegmentDefinition& s) { return s.segment == segment; });
-  return found == body.segments.end() ? nullptr : &*found;
-}
-
-SegmentDefinition* Find(BodyDefinition& body, Segment segment) {
-  const SegmentDefinition* found = Find(std::as_const(body), segment);
-  return found == nullptr ? nullptr
-                          : &body.segments[static_cast<std::size_t>(found - body.segments.data())];
-}
-
 Segment OtherSide(Segment segment) {
   if (IsRight(segment)) {
     return LeftOf(segment);

@@ -103,17 +103,10 @@ Status ReadDefinition(const fs::path& path, bool any_body, body::BodyDefinition&
     ++count;
     body::SegmentDefinition read;
     ReadSegment(root.Get(name), read);
-    for (body::SegmentDefinition& into : loaded.segments) {
-      if (into.segment == segment) {
-        into.sensor_uid = read.sensor_uid;
-        into.aligned = read.aligned;
-        into.q_sensor_segment = read.q_sensor_segment;
-        into.heading_correction_rad = read.heading_correction_rad;
-        into.p_parent_segment_m = read.p_parent_segment_m;
-        into.p_segment_end_m = read.p_segment_end_m;
-        into.length_measured = read.length_measured;
-        into.alignment_quality = read.alignment_quality;
-      }
+    if (body::SegmentDefinition* const into = body::Find(loaded, segment)) {
+      into->sensor_uid = read.sensor_uid;
+      body::TakeAlignment(read, *into);
+      body::TakeDimensions(read, *into);
     }
   }
   const config::Section end = root.Get("end");
@@ -240,14 +233,9 @@ Result<std::size_t> AlignmentStore::LoadProfile(std::string_view name,
   for (std::size_t row = 0; row < definition.segments.size(); ++row) {
     body::SegmentDefinition& into = definition.segments[row];
     const body::SegmentDefinition& from = loaded.segments[row];
-    into.p_parent_segment_m = from.p_parent_segment_m;
-    into.p_segment_end_m = from.p_segment_end_m;
-    into.length_measured = from.length_measured;
+    body::TakeDimensions(from, into);
     if (from.aligned && from.sensor_uid == into.sensor_uid) {
-      into.q_sensor_segment = from.q_sensor_segment;
-      into.heading_correction_rad = from.heading_correction_rad;
-      into.alignment_quality = from.alignment_quality;
-      into.aligned = true;
+      body::TakeAlignment(from, into);
       ++aligned;
     }
   }

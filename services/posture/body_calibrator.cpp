@@ -193,22 +193,21 @@ std::string ApplyFit(const CalibrationOutcome& outcome, body::BodyDefinition& de
   double sigma_rad = 0.0;
   std::string doubts;
   for (const body::SegmentFit& fit : outcome.fit.segments) {
-    for (body::SegmentDefinition& segment : definition.segments) {
-      if (segment.segment != fit.segment) {
-        continue;
-      }
-      if (!fit.doubt.empty()) {
-        doubts += fmt::format("; {}: {}", body::ToString(fit.segment), fit.doubt);
-        continue;
-      }
-      segment.q_sensor_segment = fit.q_sensor_segment;
-      segment.heading_correction_rad = fit.heading_correction_rad;
-      segment.aligned = true;
-      segment.alignment_quality =
-          static_cast<float>(std::clamp(1.0 - fit.sigma_rad / body::kMaxFitSigma_rad, 0.0, 1.0));
-      sigma_rad = std::max(sigma_rad, fit.sigma_rad);
-      ++aligned;
+    body::SegmentDefinition* const segment = body::Find(definition, fit.segment);
+    if (segment == nullptr) {
+      continue;
     }
+    if (!fit.doubt.empty()) {
+      doubts += fmt::format("; {}: {}", body::ToString(fit.segment), fit.doubt);
+      continue;
+    }
+    segment->q_sensor_segment = fit.q_sensor_segment;
+    segment->heading_correction_rad = fit.heading_correction_rad;
+    segment->aligned = true;
+    segment->alignment_quality =
+        static_cast<float>(std::clamp(1.0 - fit.sigma_rad / body::kMaxFitSigma_rad, 0.0, 1.0));
+    sigma_rad = std::max(sigma_rad, fit.sigma_rad);
+    ++aligned;
   }
   for (const body::Segment segment : outcome.left_out) {
     doubts += fmt::format("; {}: not heard all the time", body::ToString(segment));

@@ -69,10 +69,7 @@ bool BodyTracker::SetRoster(const roster::RosterEntry& entry) {
     }
     changed = true;
     if (segment.sensor_uid != SensorUid{}) {
-      segment.q_sensor_segment.setIdentity();
-      segment.heading_correction_rad = 0.0;
-      segment.aligned = false;
-      segment.alignment_quality = 1.0F;
+      body::TakeAlignment(body::SegmentDefinition(), segment);
     }
     segment.sensor_uid = uid;
     tracks_[body::Index(segment.segment)].started = false;

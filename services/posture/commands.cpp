@@ -214,9 +214,8 @@ CommandOutcome BodyCommands::ResetMounting(const roster::Command& command,
   std::optional<body::Segment> only;
   if (!command.text.empty()) {
     only = body::ParseSegment(command.text);
-    const auto found = std::find_if(definition.segments.begin(), definition.segments.end(),
-                                    [&](const auto& s) { return only && s.segment == *only; });
-    if (found == definition.segments.end() || !found->tracked) {
+    const SegmentDefinition* const found = only ? body::Find(definition, *only) : nullptr;
+    if (found == nullptr || !found->tracked) {
       return Refused(fmt::format("no sensor on a segment \"{}\"", command.text));
     }
   }
@@ -320,13 +319,9 @@ CommandOutcome BodyCommands::Undo(const BodyTracker& tracker, body::BodyDefiniti
   for (std::size_t i = 0; i < definition.segments.size(); ++i) {
     SegmentDefinition& segment = definition.segments[i];
     const SegmentDefinition& old = last.segments[i];
-    segment.p_parent_segment_m = old.p_parent_segment_m;
-    segment.p_segment_end_m = old.p_segment_end_m;
+    body::TakeDimensions(old, segment);
     if (old.sensor_uid == segment.sensor_uid) {
-      segment.q_sensor_segment = old.q_sensor_segment;
-      segment.heading_correction_rad = old.heading_correction_rad;
-      segment.aligned = old.aligned;
-      segment.alignment_quality = old.alignment_quality;
+      body::TakeAlignment(old, segment);
     }
   }
   return {true, fmt::format("took revision {} back, {} step(s) left", tracker.definition().revision,

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "common/body/alignment.hpp"
+#include "common/body/default_body.hpp"
 #include "common/math/rotation.hpp"
 #include "tests/unit/services/posture/posture_rig.hpp"
 
@@ -263,6 +264,16 @@ TEST_F(BodyCommandsTest, UndoTakesBackOneCommandAfterTheOther) {
   EXPECT_TRUE(rig_.definitions.back().segments[0].q_sensor_segment.isApprox(
       first.segments[0].q_sensor_segment));
   EXPECT_EQ(rig_.Command(kBody, CommandKind::kUndo).message, "nothing to undo");
+}
+
+TEST_F(BodyCommandsTest, AnUndoneMeasurementIsNoMeasurement) {
+  Stand(0.5, 0.0);
+  const std::size_t thigh = body::Index(Segment::kRightUpperLeg);
+  ASSERT_TRUE(rig_.Command(kBody, CommandKind::kSetDimensions, "right_upper_leg", {0.6}).accepted);
+  ASSERT_TRUE(rig_.Command(kBody, CommandKind::kUndo).accepted);
+  ASSERT_TRUE(rig_.Command(kBody, CommandKind::kSetDimensions, "height", {1.9}).accepted);
+  EXPECT_TRUE(rig_.definitions.back().segments[thigh].p_segment_end_m.isApprox(
+      body::MakeDefaultBody(kBody, 1.9)->segments[thigh].p_segment_end_m, 1e-6));
 }
 
 TEST_F(BodyCommandsTest, ASensorThatIsReplacedLosesItsAlignmentAndUndoDoesNotRestoreIt) {
