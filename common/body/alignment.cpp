@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/math/angles.hpp"
 #include "common/math/rotation.hpp"
 
 // Notation: E earth, S sensor, B segment.
@@ -52,8 +53,7 @@ void SensorAlignment::SetFromReferencePose(const Eigen::Quaterniond& q_ES,
 }
 
 void SensorAlignment::TurnHeading(double by_rad) {
-  heading_correction_rad_ =
-      std::remainder(heading_correction_rad_ + by_rad, 2.0 * std::numbers::pi);
+  heading_correction_rad_ = math::WrappedAngle_rad(heading_correction_rad_ + by_rad);
   q_heading_ = HeadingRotation(heading_correction_rad_);
 }
 

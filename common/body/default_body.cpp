@@ -257,6 +257,16 @@ std::span<const Segment> ReducedSegments() {
   return kReduced;
 }
 
+std::span<const Segment> SixteenSegments() {
+  static const std::vector<Segment> kSixteen = [] {
+    std::vector<Segment> all{Segment::kPelvis, Segment::kL5};
+    const auto reduced = ReducedSegments();
+    all.insert(all.end(), reduced.begin() + 1, reduced.end());
+    return all;
+  }();
+  return kSixteen;
+}
+
 Status SetDimension(std::string_view name, double length_m, BodyDefinition& body) {
   if (name == "height") {
     return SetHeight(length_m, body);

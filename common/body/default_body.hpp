@@ -39,6 +39,10 @@ inline constexpr double kStandingRootHeight = 0.530;
 /// upper leg, lower leg, foot on both sides.
 [[nodiscard]] std::span<const Segment> ReducedSegments();
 
+/// The 16 segments of recordings of a whole person: the papers' 15 and the lower back (L5), parents
+/// before children.
+[[nodiscard]] std::span<const Segment> SixteenSegments();
+
 /// Makes one segment `length_m` long (range: [0.01, 1.0]), or the whole person `length_m` tall for
 /// the name "height". The joints at the segment's outboard end move along.
 ///  - A segment: its length is measured from now on. The same segment of the other side becomes as

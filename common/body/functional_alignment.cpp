@@ -10,6 +10,7 @@
 #include "common/body/heading_graph.hpp"
 #include "common/body/horizontal_axis.hpp"
 #include "common/body/joint_heading.hpp"
+#include "common/math/angles.hpp"
 #include "common/math/rotation.hpp"
 
 // Notation: E earth frame of one sensor, S sensor, B segment; θ direction of walking in E.
@@ -125,7 +126,7 @@ double MeanPitch_rad(const SmoothMotion& motion, const Eigen::Quaterniond& q_ES_
   double sum_rad = 0.0;
   for (const Eigen::Quaterniond& q : motion.q_earth_sensor) {
     const Eigen::Quaterniond turned = q * q_ES_standing.conjugate();
-    sum_rad += std::remainder(2.0 * std::atan2(turned.vec().dot(left), turned.w()), 2.0 * kPi);
+    sum_rad += math::WrappedAngle_rad(2.0 * std::atan2(turned.vec().dot(left), turned.w()));
   }
   return sum_rad / static_cast<double>(motion.q_earth_sensor.size());
 }
@@ -174,27 +175,14 @@ double Weighted(double a, double sigma_a, double b, double sigma_b) {
 /// to the left of `direction_rad` then: bending about it does not count.
 double MeanHeading_rad(const SmoothMotion& motion, const Eigen::Quaterniond& q_ES_standing,
                        double direction_rad) {
-  double s = 0.0;
-  double c = 0.0;
+  math::AngleMean mean;
   const Eigen::Vector3d left_E(-std::sin(direction_rad), std::cos(direction_rad), 0.0);
   const Eigen::Vector3d left_S = q_ES_standing.conjugate() * left_E;
   for (const Eigen::Quaterniond& q : motion.q_earth_sensor) {
     const Eigen::Vector3d now_E = q * left_S;
-    const double heading_rad = std::atan2(-now_E.x(), now_E.y()) - direction_rad;
-    s += std::sin(heading_rad);
-    c += std::cos(heading_rad);
+    mean.Add(std::atan2(-now_E.x(), now_E.y()) - direction_rad);
   }
-  return std::atan2(s, c);
-}
-
-double MeanAngle_rad(const std::vector<double>& angles_rad) {
-  double s = 0.0;
-  double c = 0.0;
-  for (const double angle_rad : angles_rad) {
-    s += std::sin(angle_rad);
-    c += std::cos(angle_rad);
-  }
-  return std::atan2(s, c);
+  return mean.Mean_rad();
 }
 
 std::string Whole(double value) { return std::to_string(std::lround(value)); }
@@ -213,8 +201,8 @@ void Place(const FunctionalInput& input, const std::vector<SmoothMotion>& motion
   const bool n_pose = input.standing.pose == ReferencePose::kNPose;
   // Heading gained since the stance, in the frame of the walk; and the facing of the stance in it.
   std::vector<double> gained_rad;
-  double sin_sum = 0.0;
-  double cos_sum = 0.0;
+  math::AngleMean stance;
+  math::AngleMean direction;
   for (const SmoothMotion& motion : motions) {
     gained_rad.push_back(MeanHeading_rad(motion,
                                          input.standing.q_earth_sensor[Index(motion.segment)],
@@ -223,17 +211,19 @@ void Place(const FunctionalInput& input, const std::vector<SmoothMotion>& motion
     const double weight =
         1.0 / (spread.standing_rad * spread.standing_rad + spread.walking_rad * spread.walking_rad);
     if (n_pose || !IsArm(motion.segment)) {
-      sin_sum += weight * std::sin(-gained_rad.back());
-      cos_sum += weight * std::cos(-gained_rad.back());
+      stance.Add(-gained_rad.back(), weight);
     }
   }
-  const double stance_rad = std::atan2(sin_sum, cos_sum);
+  for (const double direction_rad : graph.direction_rad) {
+    direction.Add(direction_rad);
+  }
+  const double stance_rad = stance.Mean_rad();
   const double facing_rad =
-      input.common_heading ? stance_rad + MeanAngle_rad(graph.direction_rad) : input.facing_rad;
+      input.common_heading ? stance_rad + direction.Mean_rad() : input.facing_rad;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const Segment segment = motions[i].segment;
     const FacingSpread spread = SpreadOf(segment);
-    const double walked_rad = std::remainder(-gained_rad[i] - stance_rad, 2.0 * kPi);
+    const double walked_rad = math::WrappedAngle_rad(-gained_rad[i] - stance_rad);
     const double of_stance_rad =
         n_pose || !IsArm(segment)
             ? Weighted(0.0, spread.standing_rad, walked_rad, spread.walking_rad)
@@ -241,7 +231,7 @@ void Place(const FunctionalInput& input, const std::vector<SmoothMotion>& motion
     const double theta_rad = graph.direction_rad[i];
     SegmentFit one;
     one.segment = segment;
-    one.heading_correction_rad = std::remainder(facing_rad - stance_rad - theta_rad, 2.0 * kPi);
+    one.heading_correction_rad = math::WrappedAngle_rad(facing_rad - stance_rad - theta_rad);
     const Eigen::Quaterniond q_earth_segment =
         HeadingRotation(theta_rad + stance_rad + of_stance_rad) *
         ReferenceOrientation(input.standing.pose, segment);
@@ -373,7 +363,7 @@ Result<FunctionalFit> FitFunctionalAlignment(const FunctionalInput& input) {
       Forwardness(input, seen->motions, graph.direction_rad, seen->gait.stride_s / 2.0);
   if (fit.forwardness < 0.0) {
     for (double& direction_rad : graph.direction_rad) {
-      direction_rad = std::remainder(direction_rad + kPi, 2.0 * kPi);
+      direction_rad = math::WrappedAngle_rad(direction_rad + kPi);
     }
     fit.forwardness = -fit.forwardness;
   }

@@ -131,15 +131,6 @@ Stretch LongestActivity(const std::vector<SmoothMotion>& motions, double rate_hz
   return longest;
 }
 
-bool IsTrunk(Segment segment) { return segment <= Segment::kHead; }
-
-bool IsLeg(Segment segment) { return segment >= Segment::kRightUpperLeg; }
-
-bool IsArm(Segment segment) {
-  return !IsTrunk(segment) && !IsLeg(segment) && segment != Segment::kRightShoulder &&
-         segment != Segment::kLeftShoulder;
-}
-
 std::optional<Gait> FindGait(const std::vector<SmoothMotion>& motions, double rate_hz) {
   const Signals signals = SignalsOf(motions);
   if (signals.all.empty()) {

@@ -36,9 +36,4 @@ struct Stretch {
 };
 [[nodiscard]] Stretch LongestActivity(const std::vector<SmoothMotion>& motions, double rate_hz);
 
-/// Segments of the trunk carry the heading of the body; segments of a leg swing once a stride.
-[[nodiscard]] bool IsTrunk(Segment segment);
-[[nodiscard]] bool IsLeg(Segment segment);
-[[nodiscard]] bool IsArm(Segment segment);  ///< without the shoulders
-
 }  // namespace limbcast::body

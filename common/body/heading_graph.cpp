@@ -7,14 +7,14 @@
 #include <limits>
 #include <numbers>
 
+#include "common/math/angles.hpp"
+
 namespace limbcast::body {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kHuber = 2.0;
 constexpr int kIterations = 12;
-
-double Wrapped(double angle_rad) { return std::remainder(angle_rad, 2.0 * kPi); }
 
 /// Directions from node 0 outwards over the surest connections (Prim's tree).
 std::vector<bool> Start(const std::vector<DirectionObservation>& directions,
@@ -118,13 +118,14 @@ HeadingGraphSolution SolveHeadingGraph(std::size_t count,
     }
     for (const TurnObservation& turn : turns) {
       normal.Add(static_cast<std::ptrdiff_t>(turn.first), static_cast<std::ptrdiff_t>(turn.second),
-                 Wrapped(turn.turn_rad - (x[turn.first] - x[turn.second])), turn.sigma_rad);
+                 math::WrappedAngle_rad(turn.turn_rad - (x[turn.first] - x[turn.second])),
+                 turn.sigma_rad);
     }
     // A node that nothing is known of stays where it is.
     normal.H.diagonal().array() += 1.0 / (kPi * kPi);
     const Eigen::VectorXd step = normal.H.ldlt().solve(normal.g);
     for (std::size_t i = 0; i < count; ++i) {
-      x[i] = Wrapped(x[i] + step[static_cast<Eigen::Index>(i)]);
+      x[i] = math::WrappedAngle_rad(x[i] + step[static_cast<Eigen::Index>(i)]);
     }
   }
   const Eigen::MatrixXd cov =

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "common/body/gait.hpp"
+#include "common/math/angles.hpp"
 #include "common/math/rotation.hpp"
 
 namespace limbcast::body {
@@ -23,8 +22,6 @@ constexpr double kMaxRate_rad_s = 0.0035;
 /// Beyond this from upright a segment's heading is not the way it faces.
 constexpr double kMinUpright = 0.3;  // cos 72°
 
-double Wrapped(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
-
 /// The way across the left axis, about which trunk and legs bend: unlike the twist about the
 /// vertical it does not change with bending. In (−π, π].
 double Facing_rad(const Eigen::Quaterniond& q_earth_segment) {
@@ -32,21 +29,15 @@ double Facing_rad(const Eigen::Quaterniond& q_earth_segment) {
   return std::atan2(-left.x(), left.y());
 }
 
-struct TrunkHeading {
-  bool known = false;
-  double heading_rad = 0.0;
-};
-
-TrunkHeading HeadingOfTrunk(const PerSegment<bool>& use,
-                            const PerSegment<Eigen::Quaterniond>& q_earth_segment) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+math::AngleMean HeadingOfTrunk(const PerSegment<bool>& use,
+                               const PerSegment<Eigen::Quaterniond>& q_earth_segment) {
+  math::AngleMean heading;
   for (std::size_t i = 0; i < Index(Segment::kNeck); ++i) {  // the head looks where it likes
     if (use[i]) {
-      const double heading_rad = Facing_rad(q_earth_segment[i]);
-      sum += Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad));
+      heading.Add(Facing_rad(q_earth_segment[i]));
     }
   }
-  return {.known = sum.norm() > 0.0, .heading_rad = std::atan2(sum.y(), sum.x())};
+  return heading;
 }
 
 /// What a segment's facing is compared with: the thigh for a shank, else the trunk.
@@ -79,11 +70,14 @@ const PerSegment<double>& HeadingTracker::Update(
     double dt_s, const PerSegment<bool>& use,
     const PerSegment<Eigen::Quaterniond>& q_earth_segment) {
   turn_rad_.fill(0.0);
-  const TrunkHeading trunk = HeadingOfTrunk(use, q_earth_segment);
-  if (has_last_ && dt_s <= kMaxStep_s && trunk.known) {
+  const math::AngleMean trunk = HeadingOfTrunk(use, q_earth_segment);
+  const bool trunk_known = trunk.length() > 0.0;
+  const double trunk_heading_rad = trunk.Mean_rad();
+  if (has_last_ && dt_s <= kMaxStep_s && trunk_known) {
     NoteActivity(dt_s, use, q_earth_segment);
     if (dt_s > 0.0) {
-      const double rate_rad_s = Wrapped(trunk.heading_rad - trunk_heading_rad_) / dt_s;
+      const double rate_rad_s =
+          math::WrappedAngle_rad(trunk_heading_rad - trunk_heading_rad_) / dt_s;
       trunk_rate_rad_s_ += std::min(1.0, dt_s / kActivityTime_s) * (rate_rad_s - trunk_rate_rad_s_);
     }
     const bool correct = walking_ && std::abs(trunk_rate_rad_s_) < kTurningRate_rad_s;
@@ -98,8 +92,8 @@ const PerSegment<double>& HeadingTracker::Update(
         continue;
       }
       const double ahead_rad =
-          ReferenceFacing_rad(segment, trunk.heading_rad, use, q_earth_segment);
-      const double error_rad = Wrapped(Facing_rad(q_earth_segment[i]) - ahead_rad);
+          ReferenceFacing_rad(segment, trunk_heading_rad, use, q_earth_segment);
+      const double error_rad = math::WrappedAngle_rad(Facing_rad(q_earth_segment[i]) - ahead_rad);
       turn_rad_[i] = -error_rad * dt_s / config_.time_constant_s;
     }
   }
@@ -120,8 +114,8 @@ const PerSegment<double>& HeadingTracker::Update(
                                 -kMaxRate_rad_s, kMaxRate_rad_s);
     turn_rad_[i] += rate_rad_s_[i] * dt_s;
   }
-  has_last_ = trunk.known;
-  trunk_heading_rad_ = trunk.heading_rad;
+  has_last_ = trunk_known;
+  trunk_heading_rad_ = trunk_heading_rad;
   last_q_ = q_earth_segment;
   last_use_ = use;
   return turn_rad_;
@@ -129,7 +123,7 @@ const PerSegment<double>& HeadingTracker::Update(
 
 void HeadingTracker::Observe(Segment segment, double error_rad, double sigma_rad) {
   const double ratio = sigma_rad / kDrift_rad;
-  observed_rad_[Index(segment)] = Wrapped(error_rad) / (1.0 + ratio * ratio);
+  observed_rad_[Index(segment)] = math::WrappedAngle_rad(error_rad) / (1.0 + ratio * ratio);
 }
 
 void HeadingTracker::Forget(Segment segment) { observed_rad_[Index(segment)] = 0.0; }

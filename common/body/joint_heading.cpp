@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "common/math/angles.hpp"
 #include "common/math/rotation.hpp"
 
 namespace limbcast::body {
@@ -143,7 +144,7 @@ std::optional<JointHeading> FitJointHeading(const SmoothMotion& first, const Smo
     return heading;  // nothing moves
   }
   const double offset = 0.5 * (before - after) / (before - 2.0 * *least + after);
-  heading.turn_rad = std::remainder((static_cast<double>(at) + offset) * kStep_rad, 2.0 * kPi);
+  heading.turn_rad = math::WrappedAngle_rad((static_cast<double>(at) + offset) * kStep_rad);
   const Solution solution = SolveFor(sums, heading.turn_rad);
   heading.p_sensor1_joint_m = solution.levers_m.head<3>();
   heading.p_sensor2_joint_m = solution.levers_m.tail<3>();

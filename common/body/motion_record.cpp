@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/math/angles.hpp"
 #include "common/math/rotation.hpp"
 
 namespace limbcast::body {
@@ -107,7 +108,7 @@ std::vector<double> HeadingSince_rad(const Eigen::Quaterniond& reference,
   for (const Eigen::Quaterniond& q : q_earth_sensor) {
     const double now_rad = math::Heading_rad(q * reference.conjugate());
     const double last_rad = heading_rad.empty() ? now_rad : heading_rad.back();
-    heading_rad.push_back(last_rad + std::remainder(now_rad - last_rad, 2.0 * std::numbers::pi));
+    heading_rad.push_back(last_rad + math::WrappedAngle_rad(now_rad - last_rad));
   }
   return heading_rad;
 }

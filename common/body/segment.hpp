@@ -50,6 +50,15 @@ inline constexpr std::size_t kSegmentCount = 23;
 /// The parent towards the pelvis; nothing for the pelvis.
 [[nodiscard]] std::optional<Segment> ParentOf(Segment segment);
 
+/// Pelvis to head.
+[[nodiscard]] constexpr bool IsTrunk(Segment segment) { return segment <= Segment::kHead; }
+[[nodiscard]] constexpr bool IsLeg(Segment segment) { return segment >= Segment::kRightUpperLeg; }
+/// Upper arm to hand: shoulders go with the trunk, but are none of it.
+[[nodiscard]] constexpr bool IsArm(Segment segment) {
+  return !IsTrunk(segment) && !IsLeg(segment) && segment != Segment::kRightShoulder &&
+         segment != Segment::kLeftShoulder;
+}
+
 /// All segments, every parent before its children.
 [[nodiscard]] const std::array<Segment, kSegmentCount>& AllSegments();
 

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "common/math/angles.hpp"
 #include "common/simulation/gait_phase.hpp"
 #include "common/simulation/smooth_step.hpp"
 
 namespace limbcast::simulation {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Times in steps after the foot lifts (negative: before). Order and size follow Perry, "Gait
 // Analysis", chapter 4; the numbers were searched so that the knee angle of a stride is as people
@@ -30,8 +28,6 @@ constexpr double kFullStride_m = 1.1;
 constexpr double kWalkHalfWidth = 0.65;  // of the hips' half width
 
 double SideSign(Side side) { return side == Side::kRight ? -1.0 : 1.0; }
-
-double Wrapped(double angle_rad) { return std::remainder(angle_rad, 2.0 * kPi); }
 
 }  // namespace
 
@@ -105,7 +101,7 @@ FootMotion Footsteps::Swinging(const Placement& from, const Placement& to,
   const Jet pivot_x_m = ball_m + (heel_m - ball_m) * done;
   const Jet pivot_over_sole_m = shape_.ball_height_m * (1.0 - done);
 
-  const double turn_rad = Wrapped(to.heading_rad - from.heading_rad);
+  const double turn_rad = math::WrappedAngle_rad(to.heading_rad - from.heading_rad);
   foot.heading_rad = from.heading_rad + turn_rad * done;
   const auto on_floor = [](const Placement& at, double forward_m) {
     return std::pair{at.x_m + forward_m * std::cos(at.heading_rad),

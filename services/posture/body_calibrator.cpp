@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "common/body/gait.hpp"
 #include "common/units/units.hpp"
 
 namespace limbcast::posture {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/body/alignment.hpp"
-#include "common/body/gait.hpp"
 #include "common/math/rotation.hpp"
 #include "services/posture/body_tracker.hpp"
 

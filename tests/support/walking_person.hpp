@@ -100,10 +100,8 @@ class WalkingPerson {
   }
 
   static std::vector<body::Segment> Sixteen() {
-    std::vector<body::Segment> all{body::Segment::kPelvis, body::Segment::kL5};
-    const auto reduced = body::ReducedSegments();
-    all.insert(all.end(), reduced.begin() + 1, reduced.end());
-    return all;
+    const auto segments = body::SixteenSegments();
+    return {segments.begin(), segments.end()};
   }
 
  private:

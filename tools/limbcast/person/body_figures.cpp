@@ -9,7 +9,6 @@
 #include <numbers>
 #include <utility>
 
-#include "common/body/gait.hpp"
 #include "common/body/joint_angles.hpp"
 #include "common/math/rotation.hpp"
 #include "common/units/units.hpp"

@@ -28,7 +28,7 @@ struct WornSensor {
 std::vector<WornSensor> Wear(const SimulatedPersonOptions& person,
                              const simulation::PersonShape& shape) {
   std::vector<WornSensor> sensors;
-  for (const body::Segment segment : SixteenSegments()) {
+  for (const body::Segment segment : body::SixteenSegments()) {
     const std::string name(body::ToString(segment));
     sensors.push_back(
         {segment, SensorUid{body::Index(segment) + 1},
@@ -75,7 +75,7 @@ void Compare(const Orientations& q, const Orientations& truth, Sums& sums) {
   const Eigen::Quaterniond back =
       math::ExpSO3({0.0, 0.0, -math::Heading_rad(q[pelvis] * truth[pelvis].conjugate())});
   sums.frames += 1.0;
-  for (const body::Segment segment : SixteenSegments()) {
+  for (const body::Segment segment : body::SixteenSegments()) {
     const std::size_t i = body::Index(segment);
     sums.segment += std::pow(angle_rad(q[i], truth[i]), 2);
     sums.relative[i] += std::pow(angle_rad(back * q[i], truth[i]), 2);
@@ -118,16 +118,6 @@ simulation::MotionSchedule MakeCalibrationSchedule() {
   stand.duration_s = 8.0;
   stand.gestures = {{.kind = simulation::GestureKind::kRaiseFront, .start_s = 1.0}};
   return {.phases = {n_pose, walk, sit, left, stand, right, walk}, .repeat_from = 2};
-}
-
-std::span<const body::Segment> SixteenSegments() {
-  static const std::vector<body::Segment> segments = [] {
-    std::vector<body::Segment> all{body::Segment::kPelvis, body::Segment::kL5};
-    const auto reduced = body::ReducedSegments();
-    all.insert(all.end(), reduced.begin() + 1, reduced.end());
-    return all;
-  }();
-  return segments;
 }
 
 Result<SimulatedTrace> RunSimulatedTrial(const SimulatedPersonOptions& person,

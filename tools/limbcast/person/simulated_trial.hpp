@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,7 @@
 
 namespace limbcast::tool {
 
-/// A simulated person with sensors turned arbitrarily on the segments.
+/// A simulated person with sensors turned arbitrarily on body::SixteenSegments().
 struct SimulatedPersonOptions {
   simulation::MotionSchedule schedule;
   double facing_rad = 0.0;
@@ -26,9 +25,6 @@ struct SimulatedPersonOptions {
 
 /// N-pose, then walking both ways, sitting and turning for ever: what acceptance asks for.
 [[nodiscard]] simulation::MotionSchedule MakeCalibrationSchedule();
-
-/// The 16 segments of the full-body recordings: the papers' 15 and L5.
-[[nodiscard]] std::span<const body::Segment> SixteenSegments();
 
 /// Errors of one run, over windows of time.
 struct TruthErrors {

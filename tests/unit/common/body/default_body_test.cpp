@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -74,6 +75,15 @@ TEST(DefaultBodyTest, RefusesAHeightThatNobodyHasAndNamesTheLimit) {
     ASSERT_FALSE(body.ok());
     EXPECT_THAT(body.error().message, HasSubstr("height must be in [0.5, 2.5] m"));
   }
+}
+
+TEST(DefaultBodyTest, TheSixteenAreThePapersFifteenAndTheLowerBack) {
+  const auto sixteen = SixteenSegments();
+  ASSERT_EQ(sixteen.size(), 16U);
+  EXPECT_EQ(sixteen[0], Segment::kPelvis);
+  EXPECT_EQ(sixteen[1], Segment::kL5);
+  EXPECT_TRUE(std::equal(sixteen.begin() + 2, sixteen.end(), ReducedSegments().begin() + 1,
+                         ReducedSegments().end()));
 }
 
 TEST(DefaultBodyTest, LeavingSegmentsOutMovesNoJoint) {

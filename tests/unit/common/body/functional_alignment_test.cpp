@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/body/gait.hpp"
 #include "tests/support/walking_person.hpp"
 
 namespace limbcast::body {

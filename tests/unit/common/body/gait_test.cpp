@@ -42,13 +42,5 @@ TEST(GaitTest, TheWalkIsFoundBetweenStandingBeforeAndAfter) {
   EXPECT_NEAR(static_cast<double>(walk.end) / 50.0, 3.0 + 35.0 / 1.1, 2.5);
 }
 
-TEST(GaitTest, EverySegmentIsOfOnePart) {
-  EXPECT_TRUE(IsTrunk(Segment::kHead));
-  EXPECT_FALSE(IsTrunk(Segment::kRightShoulder));
-  EXPECT_TRUE(IsLeg(Segment::kLeftToe));
-  EXPECT_TRUE(IsArm(Segment::kLeftHand));
-  EXPECT_FALSE(IsArm(Segment::kLeftShoulder));
-}
-
 }  // namespace
 }  // namespace limbcast::body

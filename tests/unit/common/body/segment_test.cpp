@@ -30,5 +30,13 @@ TEST(SegmentTest, EveryParentComesBeforeItsChildrenAndLeadsToThePelvis) {
   }
 }
 
+TEST(SegmentTest, EverySegmentIsOfOnePart) {
+  EXPECT_TRUE(IsTrunk(Segment::kHead));
+  EXPECT_FALSE(IsTrunk(Segment::kRightShoulder));
+  EXPECT_TRUE(IsLeg(Segment::kLeftToe));
+  EXPECT_TRUE(IsArm(Segment::kLeftHand));
+  EXPECT_FALSE(IsArm(Segment::kLeftShoulder));
+}
+
 }  // namespace
 }  // namespace limbcast::body
