@@ -125,11 +125,11 @@ Status ReadDefinition(const fs::path& path, bool any_body, body::BodyDefinition&
 }
 
 Status CheckName(std::string_view name) {
-  constexpr std::size_t kMaxName = 48;
-  if (name.empty() || name.size() > kMaxName) {
-    return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("a profile's name must have 1 to {} characters, has {}", kMaxName,
-                             name.size())};
+  constexpr std::size_t kMost = AlignmentStore::kMaxProfileName;
+  if (name.empty() || name.size() > kMost) {
+    return Error{
+        ErrorCode::kInvalidArgument,
+        fmt::format("a profile's name must have 1 to {} characters, has {}", kMost, name.size())};
   }
   return Ok();
 }

@@ -15,6 +15,8 @@ namespace limbcast::posture {
 /// by one thread at a time.
 class AlignmentStore {
  public:
+  static constexpr std::size_t kMaxProfileName = 48;  // characters
+
   /// An empty folder name: nothing is kept.
   explicit AlignmentStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
@@ -39,7 +41,7 @@ class AlignmentStore {
   [[nodiscard]] bool HasProfile(std::string_view name) const;
 
   /// Replaces the profile as a whole, as Save. Without a folder there is nowhere to keep it:
-  /// kUnavailable. kInvalidArgument for a name that is empty or longer than 48 characters.
+  /// kUnavailable. kInvalidArgument for a name that is empty or longer than kMaxProfileName.
   [[nodiscard]] Status SaveProfile(std::string_view name,
                                    const body::BodyDefinition& definition) const;
 

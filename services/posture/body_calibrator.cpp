@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "common/math/angles.hpp"
 #include "common/units/units.hpp"
 
 namespace limbcast::posture {
@@ -169,17 +169,15 @@ std::vector<BodyCalibrator::HeadingError> BodyCalibrator::SurveyArms(
   const auto common_rad = [&](const body::WalkingDirection& one) {
     return one.direction_rad + heading_correction_rad[body::Index(one.segment)];
   };
-  double s = 0.0;
-  double c = 0.0;
+  math::AngleMean trunk;
   for (const body::WalkingDirection& one : *seen) {
     if (body::IsTrunk(one.segment) && one.segment != body::Segment::kHead) {
-      s += std::sin(common_rad(one));
-      c += std::cos(common_rad(one));
+      trunk.Add(common_rad(one));
     }
   }
   for (const body::WalkingDirection& one : *seen) {
     if (body::IsArm(one.segment)) {
-      errors.push_back({one.segment, common_rad(one) - std::atan2(s, c), one.sigma_rad});
+      errors.push_back({one.segment, common_rad(one) - trunk.Mean_rad(), one.sigma_rad});
     }
   }
   return errors;

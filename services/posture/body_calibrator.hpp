@@ -32,7 +32,6 @@ class BodyCalibrator {
 
   /// The person stood in the reference pose at `at`.
   void NoteStance(const body::StandingPose& pose, Time at);
-  [[nodiscard]] bool has_stance() const { return stance_.has_value(); }
 
   /// The walk begins now; refuses without a stance.
   [[nodiscard]] Status Start(Time at);

@@ -89,7 +89,7 @@ void BodyTracker::Redefine(body::BodyDefinition definition, Time now) {
   definition.changed_at = now;
   definition_ = std::move(definition);
   definition_changed_ = true;
-  const std::vector<Track> before = tracks_;
+  std::vector<Track> before = tracks_;
   Rebuild();
   StartBlends(before);
   ChooseAutomatic(false);
@@ -106,10 +106,7 @@ StateFate BodyTracker::OnState(const StateInput& state, Time now) {
   if (index >= body::kSegmentCount || (tick_.expected() & BitOf(state.segment)) == 0) {
     return StateFate::kUnassigned;
   }
-  const auto definition =
-      std::find_if(definition_.segments.begin(), definition_.segments.end(),
-                   [&](const auto& segment) { return segment.segment == state.segment; });
-  if (definition->sensor_uid != state.sensor_uid) {
+  if (body::Find(definition_, state.segment)->sensor_uid != state.sensor_uid) {
     return StateFate::kUnassigned;
   }
   if (CannotBe(state)) {

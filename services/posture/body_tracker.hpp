@@ -42,7 +42,9 @@ enum class TickEnd : std::uint8_t {
 
 /// One person: from segment states to skeletons. Owns alignment and dimensions (the definition),
 /// the last state of each sensor and the open tick. No clock, no thread, no DDS; after the first
-/// tick OnState and OnDue do not allocate. Thread-compatible: one worker owns it.
+/// tick OnState and OnDue do not allocate, except for a calibration that is wanted and, with
+/// sensors without magnetometer, a survey of the arms after some seconds of walking.
+/// Thread-compatible: one worker owns it.
 class BodyTracker {
  public:
   /// `skeleton` is reused and lives only during the call; `live` is false while no segment has an
@@ -116,7 +118,7 @@ class BodyTracker {
   void PoseSegments(Time at, SegmentSet measured, SegmentSet missing);
   void FillSkeleton(Time at, SegmentSet measured, SegmentSet missing);
   void NoteHeading(SegmentSet measured);
-  void StartBlends(const std::vector<Track>& before);
+  void StartBlends(std::vector<Track>& before);
   void TrackHeadings(SegmentSet measured, Time at);
   void CalibrateAutomatically(Time now);
   void ChooseAutomatic(bool restored);

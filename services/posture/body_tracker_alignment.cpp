@@ -2,7 +2,6 @@
 // that are kept together, calibration without a command.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "common/body/alignment.hpp"
@@ -21,10 +20,10 @@ constexpr double kUprightCosine = 0.94;  // 20°
 
 }  // namespace
 
-void BodyTracker::StartBlends(const std::vector<Track>& before) {
+void BodyTracker::StartBlends(std::vector<Track>& before) {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = tracks_[i];
-    Track old = before[i];
+    Track& old = before[i];
     if (!old.started || !old.aligned || !track.aligned) {
       track.blend.Stop();
       continue;  // nobody has seen anything worth keeping
@@ -151,11 +150,10 @@ void BodyTracker::CalibrateAutomatically(Time now) {
   for (body::SegmentDefinition& segment : definition.segments) {
     const std::size_t i = body::Index(segment.segment);
     if (segment.tracked && calibrator_.still_now()->known[i]) {
-      body::SensorAlignment& alignment = tracks_[i].alignment;
-      const double heading_rad =
-          math::Heading_rad(alignment.Apply(calibrator_.still_now()->q_earth_sensor[i]));
-      segment.heading_correction_rad =
-          std::remainder(segment.heading_correction_rad - heading_rad, 2.0 * std::numbers::pi);
+      body::SensorAlignment alignment = tracks_[i].alignment;
+      alignment.TurnHeading(
+          -math::Heading_rad(alignment.Apply(calibrator_.still_now()->q_earth_sensor[i])));
+      segment.heading_correction_rad = alignment.heading_correction_rad();
     }
   }
   Redefine(std::move(definition), now);

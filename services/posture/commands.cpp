@@ -52,6 +52,16 @@ body::SensorAlignment AlignmentOf(const SegmentDefinition& segment) {
   return {segment.q_sensor_segment, segment.heading_correction_rad};
 }
 
+/// How the sensor sits, from where it is while the segment is known to be `q_earth_segment`.
+void Mount(const Eigen::Quaterniond& q_earth_sensor, const Eigen::Quaterniond& q_earth_segment,
+           SegmentDefinition& segment) {
+  body::SensorAlignment alignment = AlignmentOf(segment);
+  alignment.SetFromReferencePose(q_earth_sensor, q_earth_segment);
+  segment.q_sensor_segment = alignment.q_sensor_segment();
+  segment.aligned = true;
+  segment.alignment_quality = 1.0F;
+}
+
 std::size_t CountTracked(const body::BodyDefinition& definition) {
   return static_cast<std::size_t>(
       std::count_if(definition.segments.begin(), definition.segments.end(),
@@ -191,16 +201,12 @@ CommandOutcome BodyCommands::TakeReferencePose(const roster::Command& command, B
   stance.pose = *pose;
   for (SegmentDefinition& segment : definition.segments) {
     if (segment.tracked) {
-      body::SensorAlignment alignment = AlignmentOf(segment);
+      const Eigen::Quaterniond q_earth_sensor = tracker.View(segment.segment).average->mean;
       stance.known[body::Index(segment.segment)] = true;
-      stance.q_earth_sensor[body::Index(segment.segment)] =
-          tracker.View(segment.segment).average->mean;
-      alignment.SetFromReferencePose(
-          tracker.View(segment.segment).average->mean,
-          body::HeadingRotation(facing_rad) * body::ReferenceOrientation(*pose, segment.segment));
-      segment.q_sensor_segment = alignment.q_sensor_segment();
-      segment.aligned = true;
-      segment.alignment_quality = 1.0F;
+      stance.q_earth_sensor[body::Index(segment.segment)] = q_earth_sensor;
+      Mount(q_earth_sensor,
+            body::HeadingRotation(facing_rad) * body::ReferenceOrientation(*pose, segment.segment),
+            segment);
     }
   }
   tracker.calibrator().NoteStance(stance, tracker.measured_at());
@@ -234,12 +240,7 @@ CommandOutcome BodyCommands::ResetMounting(const roster::Command& command,
     if (!segment.tracked || (only && *only != segment.segment)) {
       continue;
     }
-    body::SensorAlignment alignment = AlignmentOf(segment);
-    alignment.SetFromReferencePose(tracker.View(segment.segment).average->mean,
-                                   body::HeadingRotation(facing_rad));
-    segment.q_sensor_segment = alignment.q_sensor_segment();
-    segment.aligned = true;
-    segment.alignment_quality = 1.0F;
+    Mount(tracker.View(segment.segment).average->mean, body::HeadingRotation(facing_rad), segment);
     ++count;
   }
   return {true, fmt::format("mounting of {} segment(s) taken anew", count)};

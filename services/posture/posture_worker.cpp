@@ -11,7 +11,10 @@
 namespace limbcast::posture {
 namespace {
 
-constexpr std::size_t kMaxProfileName = 48;
+/// A person's name as that of a profile.
+std::string ProfileOf(const body::BodyDefinition& definition) {
+  return definition.name.substr(0, AlignmentStore::kMaxProfileName);
+}
 
 Count CountOf(StateFate fate) {
   switch (fate) {
@@ -180,7 +183,7 @@ bool PostureWorker::Save(const Body& body) {
   const body::BodyDefinition& definition = body.tracker->definition();
   Status saved = shared_.store.Save(definition);
   if (saved && !shared_.config.state_dir.empty() && !definition.name.empty()) {
-    saved = shared_.store.SaveProfile(definition.name.substr(0, kMaxProfileName), definition);
+    saved = shared_.store.SaveProfile(ProfileOf(definition), definition);
   }
   if (!saved) {
     shared_.on_error("alignment not saved: " + saved.error().message);
@@ -190,7 +193,7 @@ bool PostureWorker::Save(const Body& body) {
 
 void PostureWorker::RestoreProfile(Body& body) {
   body::BodyDefinition definition = body.tracker->definition();
-  const std::string name = definition.name.substr(0, kMaxProfileName);
+  const std::string name = ProfileOf(definition);
   const auto needs = [](const body::SegmentDefinition& segment) {
     return segment.tracked && !segment.aligned;
   };
