@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -40,5 +41,12 @@ struct Skeleton {
   std::uint32_t contacts = 0;         ///< bit i set: segment i is on the ground
   std::vector<SegmentPose> segments;  ///< in the order of the definition; at most 32
 };
+
+/// False for a skeleton that only answers a probe, or of a person of whom nothing is heard now.
+[[nodiscard]] inline bool AnyTracked(const Skeleton& skeleton) {
+  return std::any_of(
+      skeleton.segments.begin(), skeleton.segments.end(),
+      [](const SegmentPose& pose) { return pose.status == SegmentStatus::kTracked; });
+}
 
 }  // namespace limbcast::body

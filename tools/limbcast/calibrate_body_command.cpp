@@ -8,12 +8,12 @@
 #include <optional>
 #include <string>
 
-#include "common/bus/bus_factory.hpp"
 #include "common/client/client.hpp"
 #include "common/runtime/stop_signal.hpp"
 #include "common/runtime/system_clock.hpp"
 #include "common/units/units.hpp"
 #include "tools/limbcast/calibrate/body_guide.hpp"
+#include "tools/limbcast/live_bus.hpp"
 
 namespace limbcast::tool {
 namespace {
@@ -25,17 +25,9 @@ struct BodyCommandOptions {
 };
 
 int CalibrateBody(const service::ServiceCommandLine& line, const BodyCommandOptions& options) {
-  const auto file = line.LoadConfig();
-  if (!file) {
-    return line.Fail(file.error());
-  }
-  const auto bus_config = line.ReadBus(*file);
-  if (!bus_config) {
-    return line.Fail(bus_config.error());
-  }
   runtime::StopSignal stop;
   const runtime::SystemClock clock;
-  const auto bus = bus::Open(*bus_config);
+  const auto bus = OpenLiveBus(line);
   if (!bus) {
     return line.Fail(bus.error());
   }

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/bus/bus_factory.hpp"
 #include "common/runtime/stop_signal.hpp"
 #include "common/runtime/system_clock.hpp"
 #include "common/units/units.hpp"
@@ -19,6 +18,7 @@
 #include "tools/limbcast/calibrate/live_collector.hpp"
 #include "tools/limbcast/calibrate/sensor_samples.hpp"
 #include "tools/limbcast/calibrate_body_command.hpp"
+#include "tools/limbcast/live_bus.hpp"
 #include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
@@ -65,16 +65,8 @@ Result<std::vector<SensorSamples>> FromRecording(const CalibrateOptions& options
 // What comes over the bus while the person turns the sensor (guided), or stands still.
 Result<std::vector<SensorSamples>> FromGateway(const service::ServiceCommandLine& line,
                                                const CalibrateOptions& options, bool guided) {
-  const auto file = line.LoadConfig();
-  if (!file) {
-    return file.error();
-  }
-  const auto bus_config = line.ReadBus(*file);
-  if (!bus_config) {
-    return bus_config.error();
-  }
   runtime::StopSignal stop;
-  const auto bus = bus::Open(*bus_config);
+  const auto bus = OpenLiveBus(line);
   if (!bus) {
     return bus.error();
   }

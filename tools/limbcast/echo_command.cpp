@@ -12,9 +12,9 @@
 #include <tuple>
 #include <utility>
 
-#include "common/bus/bus_factory.hpp"
 #include "common/runtime/stop_signal.hpp"
 #include "tools/limbcast/json/topic_json.hpp"
+#include "tools/limbcast/live_bus.hpp"
 
 namespace limbcast::tool {
 namespace {
@@ -85,17 +85,9 @@ Result<std::shared_ptr<void>> SubscribeByName(std::tuple<Ts...>* topics, const s
 }
 
 int Echo(const service::ServiceCommandLine& line, const EchoOptions& options) {
-  const auto file = line.LoadConfig();
-  if (!file) {
-    return line.Fail(file.error());
-  }
-  const auto bus_config = line.ReadBus(*file);
-  if (!bus_config) {
-    return line.Fail(bus_config.error());
-  }
   runtime::StopSignal stop;
   LinePrinter printer(options.count, stop);
-  const auto bus = bus::Open(*bus_config);
+  const auto bus = OpenLiveBus(line);
   if (!bus) {
     return line.Fail(bus.error());
   }

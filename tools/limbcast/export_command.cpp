@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <mutex>
 #include <string>
 
-#include "common/bus/bus_factory.hpp"
 #include "common/runtime/stop_signal.hpp"
 #include "tools/limbcast/export/angle_table.hpp"
+#include "tools/limbcast/live_bus.hpp"
 #include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
@@ -34,10 +33,7 @@ class Collector {
       body_id_ = skeleton.body_id;
     }
     // A skeleton in which nothing is measured yet answers a probe and holds no angle.
-    const bool live = std::any_of(
-        skeleton.segments.begin(), skeleton.segments.end(),
-        [](const body::SegmentPose& pose) { return pose.status == body::SegmentStatus::kTracked; });
-    if (skeleton.body_id == body_id_ && live) {
+    if (skeleton.body_id == body_id_ && body::AnyTracked(skeleton)) {
       body::FillJointAngles(skeleton, frame_);
       table_.Add(frame_);
     }
@@ -53,15 +49,8 @@ class Collector {
 };
 
 int ExportAngles(const service::ServiceCommandLine& line, const ExportOptions& options) {
-  const auto file = line.LoadConfig();
-  if (!file) {
-    return line.Fail(file.error());
-  }
-  const auto bus_config = line.ReadBus(*file);
-  if (!bus_config) {
-    return line.Fail(bus_config.error());
-  }
-  const auto bus = bus::Open(*bus_config);
+  const runtime::StopSignal stop;  // Ctrl-C ends the recording and writes it
+  const auto bus = OpenLiveBus(line);
   if (!bus) {
     return line.Fail(bus.error());
   }
@@ -73,7 +62,6 @@ int ExportAngles(const service::ServiceCommandLine& line, const ExportOptions& o
   if (!reader) {
     return line.Fail(reader.error());
   }
-  const runtime::StopSignal stop;  // Ctrl-C ends the recording and writes it
   stop.WaitFor(DurationFromSeconds(options.seconds));
   reader->reset();  // no callback runs any more
 

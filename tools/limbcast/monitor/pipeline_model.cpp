@@ -9,11 +9,8 @@ namespace limbcast::tool {
 
 void PipelineModel::On(const body::Skeleton& value, Time received_at) {
   BodyView& body = bodies[value.body_id];
-  const auto is_tracked = [](const body::SegmentPose& pose) {
-    return pose.status == body::SegmentStatus::kTracked;
-  };
   if (body.skeletons == 0) {
-    if (std::none_of(value.segments.begin(), value.segments.end(), is_tracked)) {
+    if (!body::AnyTracked(value)) {
       ++probe_skeletons;
       return;
     }
@@ -29,7 +26,7 @@ void PipelineModel::On(const body::Skeleton& value, Time received_at) {
   body.incomplete += value.complete ? 0 : 1;
   body.last_received_at = received_at;
   for (const body::SegmentPose& pose : value.segments) {
-    if (is_tracked(pose)) {
+    if (pose.status == body::SegmentStatus::kTracked) {
       body.tracked.insert(pose.segment);
     }
   }

@@ -81,12 +81,7 @@ std::vector<double> Each(const std::vector<const BodyFrame*>& frames,
 
 std::vector<double> Angle(const std::vector<const BodyFrame*>& frames, body::Joint joint,
                           int which) {
-  const body::JointSegments segments = body::SegmentsOf(joint);
-  return Each(frames, [&](const BodyFrame& frame) {
-    return body::AnglesOf(joint, frame.q_earth_segment[body::Index(*segments.parent)],
-                          frame.q_earth_segment[body::Index(segments.child)])
-        .angle_rad[which];
-  });
+  return Each(frames, [&](const BodyFrame& frame) { return JointAngle_rad(frame, joint, which); });
 }
 
 std::vector<double> ThighAboutTrunk(const std::vector<const BodyFrame*>& frames, const Leg& leg) {

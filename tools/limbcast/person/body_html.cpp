@@ -37,19 +37,15 @@ double Y(double angle_deg) {
 }
 
 std::string Curve(const BodyTrace& trace, body::Joint joint, const char* colour) {
-  const body::JointSegments segments = body::SegmentsOf(joint);
   const double end_s = std::max(trace.frames.back().time_s, 1e-3);
   const std::size_t every = std::max<std::size_t>(1, trace.frames.size() / kMaxPoints);
   std::string points;
   for (std::size_t i = 0; i < trace.frames.size(); i += every) {
     const BodyFrame& frame = trace.frames[i];
-    if (!frame.known[body::Index(*segments.parent)] || !frame.known[body::Index(segments.child)]) {
+    if (!Knows(frame, joint)) {
       continue;
     }
-    const double angle_deg = units::DegFromRad(
-        body::AnglesOf(joint, frame.q_earth_segment[body::Index(*segments.parent)],
-                       frame.q_earth_segment[body::Index(segments.child)])
-            .angle_rad[0]);
+    const double angle_deg = units::DegFromRad(JointAngle_rad(frame, joint, 0));
     points += fmt::format("{:.1f},{:.1f} ", kWidth * frame.time_s / end_s, Y(angle_deg));
   }
   return fmt::format("<polyline fill='none' stroke='{}' stroke-width='1' points='{}'/>\n", colour,

@@ -22,6 +22,18 @@ BodyFrame FrameOf(const body::Skeleton& skeleton, const BodyBench& bench, double
 
 }  // namespace
 
+double JointAngle_rad(const BodyFrame& frame, body::Joint joint, int which) {
+  const body::JointSegments segments = body::SegmentsOf(joint);
+  return body::AnglesOf(joint, frame.q_earth_segment[body::Index(*segments.parent)],
+                        frame.q_earth_segment[body::Index(segments.child)])
+      .angle_rad[which];
+}
+
+bool Knows(const BodyFrame& frame, body::Joint joint) {
+  const body::JointSegments segments = body::SegmentsOf(joint);
+  return frame.known[body::Index(*segments.parent)] && frame.known[body::Index(segments.child)];
+}
+
 Result<BodyTrace> RunBodyTrial(const gateway::Recording& recording,
                                const BodyTrialOptions& options) {
   std::vector<roster::SensorAssignment> sensors;

@@ -7,6 +7,7 @@
 #include "common/base/result.hpp"
 #include "common/body/body_definition.hpp"
 #include "common/body/forward_kinematics.hpp"
+#include "common/body/joint_angles.hpp"
 #include "services/gateway/drivers/replay/recording.hpp"
 #include "tools/limbcast/person/body_bench.hpp"
 
@@ -18,6 +19,11 @@ struct BodyFrame {
   body::PerSegment<bool> known{};  ///< tracked and aligned
   body::PerSegment<Eigen::Quaterniond> q_earth_segment{};
 };
+
+/// Of a joint between two segments: one of its three angles (body::AnglesOf), and whether both
+/// segments are known.
+[[nodiscard]] double JointAngle_rad(const BodyFrame& frame, body::Joint joint, int which);
+[[nodiscard]] bool Knows(const BodyFrame& frame, body::Joint joint);
 
 struct BodyTrace {
   std::vector<BodyFrame> frames;

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include "common/base/result.hpp"
+#include "common/bus/bus_factory.hpp"
+#include "common/service/service_command_line.hpp"
+
+namespace limbcast::tool {
+
+/// Joins the network that the command line and the [bus] table of its file name; other tables may
+/// be a service's and are passed over. A command makes its StopSignal first.
+[[nodiscard]] Result<std::unique_ptr<bus::Bus>> OpenLiveBus(
+    const service::ServiceCommandLine& line);
+
+}  // namespace limbcast::tool
