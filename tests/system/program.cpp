@@ -112,12 +112,6 @@ std::set<std::string> SharedMemoryFiles() {
   return names;
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "limbcast-system-XXXXXX").string();
-  path_ = mkdtemp(name.data());
-}
-TemporaryFolder::~TemporaryFolder() { std::filesystem::remove_all(path_); }
-
 DemoRun RunDemo(std::vector<std::string> arguments, Duration deadline) {
   const TemporaryFolder folder;
   const std::string json_path = folder / "summary.json";

@@ -2,13 +2,13 @@
 
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "common/base/time.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tools/process/child_process.hpp"
 
 namespace limbcast::test_support {
@@ -56,20 +56,7 @@ template <typename Condition>
   return true;
 }
 
-/// A folder that goes with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using test_support::TemporaryFolder;
 
 /// `limbcast demo` run to its end on a domain of its own.
 struct DemoRun {

@@ -2,13 +2,13 @@
 // forbid: each test makes a small tree with one mistake.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "tests/support/temporary_folder.hpp"
 #include "tools/process/child_process.hpp"
 
 namespace limbcast {
@@ -19,12 +19,6 @@ using ::testing::HasSubstr;
 
 class ChecksTest : public ::testing::Test {
  protected:
-  ChecksTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "limbcast-checks-XXXXXX").string();
-    tree_ = mkdtemp(name.data());
-  }
-  ~ChecksTest() override { std::filesystem::remove_all(tree_); }
-
   void Put(const std::string& path, const std::string& text) const {
     std::filesystem::create_directories((tree_ / path).parent_path());
     std::ofstream(tree_ / path) << text;
@@ -44,7 +38,8 @@ class ChecksTest : public ::testing::Test {
     return {.status = ended ? ended->status : -1, .output = child->Output() + child->Errors()};
   }
 
-  std::filesystem::path tree_;
+  const test_support::TemporaryFolder temporary_;
+  const std::filesystem::path tree_ = temporary_.path();
 };
 
 TEST_F(ChecksTest, LayersAllowWhatTheTableLists) {

@@ -2,12 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "services/gateway/calibration_file.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/gateway/fake_driver.hpp"
 
 namespace limbcast::gateway {
@@ -55,8 +55,8 @@ TEST(CalibratedDriverTest, SaturationIsJudgedOnTheRawReading) {
 }
 
 TEST(CalibratedDriverTest, ASpoiledFileFallsBackToTheOneBeforeItWithALine) {
-  std::string name = (std::filesystem::temp_directory_path() / "limbcast_driver_XXXXXX").string();
-  const std::filesystem::path folder = mkdtemp(name.data());
+  const test_support::TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   ASSERT_TRUE(SaveCalibration(folder, Halving("A")).ok());
   ASSERT_TRUE(SaveCalibration(folder, Halving("A")).ok());
   std::filesystem::resize_file(folder / "A.toml", 50);
@@ -70,7 +70,6 @@ TEST(CalibratedDriverTest, ASpoiledFileFallsBackToTheOneBeforeItWithALine) {
   EXPECT_THAT(warnings[1], HasSubstr("the sensor stays raw"));
   const auto driver = WithCalibrations(TwoSensors(), folder);
   EXPECT_EQ(driver->Describe().sensors[0].calibration, "accel good");
-  std::filesystem::remove_all(folder);
 }
 
 TEST(CalibratedDriverTest, WithoutAFolderTheDriverIsTheSame) {

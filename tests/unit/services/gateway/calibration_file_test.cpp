@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <limits>
 
 #include "common/simulation/random.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::gateway {
 namespace {
@@ -62,15 +62,11 @@ void ExpectSame(const std::optional<sensing::TriadFit>& a,
 
 class CalibrationFileTest : public ::testing::Test {
  protected:
-  CalibrationFileTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "limbcast_calib_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~CalibrationFileTest() override { std::filesystem::remove_all(folder_); }
   void Spoil(std::size_t keep_bytes) const {
     std::filesystem::resize_file(folder_ / "sim-1.toml", keep_bytes);
   }
-  std::filesystem::path folder_;
+  const test_support::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(CalibrationFileTest, SavedValuesComeBackInAllBits) {

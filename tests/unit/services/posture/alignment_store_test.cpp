@@ -10,6 +10,7 @@
 
 #include "common/body/default_body.hpp"
 #include "common/math/rotation.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::posture {
 namespace {
@@ -19,12 +20,7 @@ using ::testing::HasSubstr;
 
 class AlignmentStoreTest : public ::testing::Test {
  protected:
-  AlignmentStoreTest()
-      : folder_(fs::path(::testing::TempDir()) /
-                (std::string("alignment_") +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name())),
-        store_(folder_) {
-    fs::remove_all(folder_);
+  AlignmentStoreTest() : folder_(temporary_ / "state"), store_(folder_) {
     EXPECT_TRUE(store_.Prepare().ok());
     aligned_ = *body::MakeDefaultBody(kBody, 1.9);
     aligned_.revision = 7;
@@ -38,7 +34,6 @@ class AlignmentStoreTest : public ::testing::Test {
       segment.length_measured = body::Index(segment.segment) % 3 == 0;
     }
   }
-  ~AlignmentStoreTest() override { fs::remove_all(folder_); }
 
   std::string Text() const {
     std::ifstream file(store_.PathOf(kBody));
@@ -55,7 +50,8 @@ class AlignmentStoreTest : public ::testing::Test {
   }
 
   static constexpr BodyId kBody{3};
-  const fs::path folder_;
+  const test_support::TemporaryFolder temporary_;
+  const fs::path folder_;  // made by Prepare
   const AlignmentStore store_;
   body::BodyDefinition aligned_;
 };

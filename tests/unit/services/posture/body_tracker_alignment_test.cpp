@@ -1,10 +1,9 @@
 // Alignment that changes while states pass by: calibration without a command, headings kept.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "common/math/rotation.hpp"
 #include "services/posture/body_tracker.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/walking_person.hpp"
 #include "tests/unit/services/posture/posture_rig.hpp"
 
@@ -20,15 +19,12 @@ constexpr BodyId kBody{1};
 /// A walker whose sensors have no magnetometer, before a posture service.
 class AutomaticCalibrationTest : public ::testing::Test {
  protected:
-  static PostureConfig Config() {
+  PostureConfig Config() const {
     PostureConfig config;
     config.automatic_calibration = true;
-    config.state_dir =
-        (std::filesystem::path(::testing::TempDir()) / "automatic_calibration").string();
+    config.state_dir = folder_.path().string();
     return config;
   }
-  AutomaticCalibrationTest() { std::filesystem::remove_all(Config().state_dir); }
-  ~AutomaticCalibrationTest() override { std::filesystem::remove_all(Config().state_dir); }
 
   /// `turned_rad`: the filters began anew, with other headings.
   void Run(PostureRig& rig, double from_s, double to_s, double turned_rad = 0.0) {
@@ -55,6 +51,7 @@ class AutomaticCalibrationTest : public ::testing::Test {
     return worst_rad;
   }
 
+  test_support::TemporaryFolder folder_;
   WalkingPerson person_;
   const std::vector<Segment> segments_ = WalkingPerson::Sixteen();
 };

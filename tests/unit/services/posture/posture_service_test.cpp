@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -11,6 +10,7 @@
 #include "common/math/rotation.hpp"
 #include "common/runtime/system_clock.hpp"
 #include "common/runtime/thread_pool.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/posture/posture_rig.hpp"
 
 namespace limbcast::posture {
@@ -204,10 +204,9 @@ TEST(PostureServiceTest, TheAlignmentSurvivesARestartOfTheFilters) {
 }
 
 TEST(PostureServiceTest, AlignmentAndDimensionsSurviveARestartOfTheService) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "posture_restart";
-  std::filesystem::remove_all(folder);
+  const test_support::TemporaryFolder folder;
   PostureConfig config;
-  config.state_dir = folder.string();
+  config.state_dir = folder.path().string();
   const Eigen::Quaterniond mounted = math::ExpSO3({0.3, 0.1, -0.4});
   std::uint32_t revision = 0;
   {
@@ -227,14 +226,12 @@ TEST(PostureServiceTest, AlignmentAndDimensionsSurviveARestartOfTheService) {
                                    Eigen::Quaterniond::Identity()),
             1e-6);
   EXPECT_NEAR(rig.Last(Segment::kPelvis).p_earth_segment_m.z(), 0.530 * 1.9, 1e-6);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PostureServiceTest, AProfileIsSavedRestoredByNameAndFollowsThePerson) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "posture_profile";
-  std::filesystem::remove_all(folder);
+  const test_support::TemporaryFolder folder;
   PostureConfig config;
-  config.state_dir = folder.string();
+  config.state_dir = folder.path().string();
   const Eigen::Quaterniond mounted = math::ExpSO3({0.3, 0.1, -0.4});
   const auto aligned = [](const PostureRig& rig) {
     return rig.definitions.back().segments[0].aligned;
@@ -262,7 +259,6 @@ TEST(PostureServiceTest, AProfileIsSavedRestoredByNameAndFollowsThePerson) {
   rig.Roster(elsewhere);
   EXPECT_TRUE(aligned(rig));
   EXPECT_EQ(rig.definitions.back().body_id, BodyId{77});
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PostureServiceTest, ABadStateFolderIsRefusedAtStart) {

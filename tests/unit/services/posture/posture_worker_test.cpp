@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/support/fake_clock.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/posture/posture_rig.hpp"
 
 namespace limbcast::posture {
@@ -111,17 +112,15 @@ TEST_F(PostureWorkerTest, FlushesOnceForEachDrainThatPublished) {
 }
 
 TEST_F(PostureWorkerTest, ABrokenAlignmentFileIsReportedAndTheBodyStartsUnaligned) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "posture_worker_broken";
-  std::filesystem::create_directories(folder);
+  const test_support::TemporaryFolder folder;
   std::ofstream(folder / "body_1.toml") << "version = 1\nbody_";
-  store_ = AlignmentStore(folder);
+  store_ = AlignmentStore(folder.path());
   PostureWorker worker(shared_);
   Give(worker);
   (void)worker.Drain();
   EXPECT_THAT(error_, HasSubstr("saved alignment refused: "));
   EXPECT_THAT(error_, HasSubstr("body_1.toml"));
   EXPECT_EQ(worker.body_count(), 1U);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

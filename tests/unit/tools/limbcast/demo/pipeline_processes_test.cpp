@@ -4,11 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::tool {
 namespace {
@@ -18,11 +19,7 @@ using ::testing::HasSubstr;
 
 class PipelineProcessesTest : public ::testing::Test {
  protected:
-  PipelineProcessesTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "limbcast-demo-XXXXXX").string();
-    options_.folder = mkdtemp(name.data());
-  }
-  ~PipelineProcessesTest() override { std::filesystem::remove_all(options_.folder); }
+  PipelineProcessesTest() { options_.folder = temporary_.path().string(); }
 
   void Script(const std::string& part, const std::string& text) const {
     const auto path = std::filesystem::path(options_.folder) / ("limbcast-" + part);
@@ -45,6 +42,7 @@ class PipelineProcessesTest : public ::testing::Test {
     return Error{ErrorCode::kTimeout, "nothing happened"};
   }
 
+  const test_support::TemporaryFolder temporary_;
   DemoOptions options_;
 };
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,6 +15,7 @@
 #include "services/fusion/sensor_track.hpp"
 #include "services/gateway/drivers/replay/recording_reader.hpp"
 #include "tests/support/shared_data.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/posture/posture_rig.hpp"
 #include "tools/limbcast/person/body_figures.hpp"
 
@@ -90,8 +90,8 @@ TEST(BodyTrialTest, TheSameHoldsForTheSkeletonTopicAndAProfileFromTheDisk) {
   ASSERT_TRUE(recording.ok()) << recording.error().message;
   posture::PostureConfig config;
   config.automatic_calibration = true;
-  config.state_dir = (std::filesystem::path(::testing::TempDir()) / "skeleton_topic").string();
-  std::filesystem::remove_all(config.state_dir);
+  const test_support::TemporaryFolder folder;
+  config.state_dir = folder.path().string();
   {
     posture::PostureRig rig(config);
     Replay(*recording, rig);
@@ -114,7 +114,6 @@ TEST(BodyTrialTest, TheSameHoldsForTheSkeletonTopicAndAProfileFromTheDisk) {
   BodyPhases phases = kFullBody;
   phases.standing->from_s = 0.6;  // the filters take half a second to start
   ExpectAllHold(BodyFigures(trace, phases), 60);
-  std::filesystem::remove_all(config.state_dir);
 }
 
 gateway::Recording LowerBody() {
