@@ -49,14 +49,14 @@ void EndpointEvents::Malformed(std::string_view why) {
   Emit(BusEventKind::kMalformed, 1, why);
 }
 
-void EndpointEvents::Liveliness(std::int32_t alive_change, std::int32_t silent_change,
-                                std::int32_t alive) {
-  alive_writers_ = alive;
-  if (silent_change > 0) {
-    liveliness_lost_ += static_cast<std::uint64_t>(silent_change);
+void EndpointEvents::Liveliness(std::int32_t alive, std::int32_t silent) {
+  const std::int32_t more_alive = alive - alive_writers_.exchange(alive);
+  const std::int32_t more_silent = silent - silent_writers_.exchange(silent);
+  if (more_silent > 0) {
+    liveliness_lost_ += static_cast<std::uint64_t>(more_silent);
     Emit(BusEventKind::kLivelinessLost, alive);
   }
-  if (alive_change > 0) {
+  if (more_alive > 0) {
     Emit(BusEventKind::kLivelinessGained, alive);
   }
 }

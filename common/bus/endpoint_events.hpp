@@ -39,9 +39,11 @@ class EndpointEvents {
   void Lost(std::int64_t more);
   void Rejected(std::int64_t more, std::string_view why);
   void Malformed(std::string_view why);
-  /// As in the DDS liveliness-changed status: a writer that left in good order only lowers `alive`,
-  /// one that fell silent also joins the silent ones.
-  void Liveliness(std::int32_t alive_change, std::int32_t silent_change, std::int32_t alive);
+  /// How many writers are alive and how many silent now: one that left in good order only lowers
+  /// `alive`, one that fell silent also joins the silent ones. What changed is found here, not
+  /// taken from a DDS status: a library adds up changes while a listener is inside a call, and a
+  /// return that meets the report of its own silence then cancels to no change at all.
+  void Liveliness(std::int32_t alive, std::int32_t silent);
 
   [[nodiscard]] EndpointCounters counters() const;
 
@@ -54,6 +56,7 @@ class EndpointEvents {
   std::atomic<std::uint64_t> samples_{0};
   std::atomic<std::int32_t> matched_{0};
   std::atomic<std::int32_t> alive_writers_{0};
+  std::atomic<std::int32_t> silent_writers_{0};
   std::atomic<std::uint64_t> incompatible_qos_{0};
   std::atomic<std::uint64_t> lost_{0};
   std::atomic<std::uint64_t> rejected_{0};

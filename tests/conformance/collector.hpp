@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -131,10 +132,22 @@ class EventLog {
  public:
   [[nodiscard]] bus::BusEventHandler Handler() {
     return [this](const bus::BusEvent& event) {
-      const std::lock_guard lock(mutex_);
+      std::unique_lock lock(mutex_);
       events_.emplace_back(event, std::chrono::steady_clock::now());
       changed_.notify_all();
+      changed_.wait(lock, [&] { return event.kind != held_; });
     };
+  }
+
+  /// From now on the handler does not return from an event of that kind until Release.
+  void Hold(bus::BusEventKind kind) {
+    const std::lock_guard lock(mutex_);
+    held_ = kind;
+  }
+  void Release() {
+    const std::lock_guard lock(mutex_);
+    held_.reset();
+    changed_.notify_all();
   }
   [[nodiscard]] std::size_t size() const {
     const std::lock_guard lock(mutex_);
@@ -170,6 +183,7 @@ class EventLog {
 
   mutable std::mutex mutex_;  // guards the rest
   std::condition_variable changed_;
+  std::optional<bus::BusEventKind> held_;
   std::vector<Entry> events_;
 };
 

@@ -9,8 +9,8 @@ namespace limbcast::conformance {
 
 class DdsConformance : public BusConformance {};
 
-/// Not for Cyclone DDS inside one process: it delivers to its own readers on the writing thread,
-/// like inproc.
+/// Handlers that hang. Not for Cyclone DDS inside one process: it delivers to its own readers on
+/// the writing thread, like inproc.
 class SlowReaderConformance : public BusConformance {};
 
 TEST_P(SlowReaderConformance, ReaderThatHangsDoesNotHoldTheWriterBack) {
@@ -26,6 +26,28 @@ TEST_P(SlowReaderConformance, ReaderThatHangsDoesNotHoldTheWriterBack) {
   collector.Open();
   EXPECT_TRUE(collector.WaitForSample(1, kSamples)) << "the newest is never lost";
   EXPECT_TRUE(collector.AllIntact());
+}
+
+TEST_P(SlowReaderConformance, ReturnThatMeetsTheReportOfTheSilenceIsNoticed) {
+  constexpr std::chrono::milliseconds kLease{300};
+  Collector<MargSample> collector;
+  const auto peer = OpenPeer({.lease = kLease});
+  const auto bus = OpenBus("", kLease);
+  const auto reader = Read(*bus, collector);
+  Ok(*peer, "start marg 1 1 1 5000");
+  ASSERT_TRUE(collector.WaitForCount(5));
+  ASSERT_TRUE(events_.WaitFor(bus::BusEventKind::kLivelinessGained, "marg"));
+
+  const std::size_t before = events_.size();
+  events_.Hold(bus::BusEventKind::kLivelinessLost);
+  Ok(*peer, "stop marg");
+  EXPECT_TRUE(events_.WaitFor(bus::BusEventKind::kLivelinessLost, "marg", before));
+  Ok(*peer, "write marg 1 1 5000 20 5000");  // meanwhile the library's thread is inside our handler
+  events_.Release();
+  Ok(*peer, "start marg 1 1 6000 5000");
+  EXPECT_TRUE(events_.WaitFor(bus::BusEventKind::kLivelinessGained, "marg", before));
+  EXPECT_TRUE(collector.WaitUntil(
+      [](const auto& received, const auto&) { return received.back().sequence > 6000; }));
 }
 
 TEST_P(DdsConformance, SilentWriterIsNoticedAndItsReturnToo) {

@@ -39,8 +39,8 @@ Listener ReaderListener(EndpointEvents& events,
   dds_lset_liveliness_changed(
       listener.get(),
       [](dds_entity_t /*reader*/, const dds_liveliness_changed_status_t status, void* passed) {
-        Events(passed).Liveliness(status.alive_count_change, status.not_alive_count_change,
-                                  static_cast<std::int32_t>(status.alive_count));
+        Events(passed).Liveliness(static_cast<std::int32_t>(status.alive_count),
+                                  static_cast<std::int32_t>(status.not_alive_count));
       });
   dds_lset_requested_incompatible_qos(
       listener.get(), [](dds_entity_t /*reader*/,

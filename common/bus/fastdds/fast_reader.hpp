@@ -121,8 +121,7 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
   }
   void on_liveliness_changed(DataReader* /*reader*/,
                              const eprosima::fastrtps::LivelinessChangedStatus& status) override {
-    events_.Liveliness(status.alive_count_change, status.not_alive_count_change,
-                       status.alive_count);
+    events_.Liveliness(status.alive_count, status.not_alive_count);
   }
   void on_requested_incompatible_qos(
       DataReader* /*reader*/,

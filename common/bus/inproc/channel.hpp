@@ -72,7 +72,7 @@ class Channel {
     for (const ReaderPtr& reader : peers) {
       writer->events.Matched(1, ++writer->matched);
       reader->events.Matched(1, ++reader->matched);
-      reader->events.Liveliness(1, 0, reader->matched);
+      reader->events.Liveliness(reader->matched, 0);
     }
   }
 
@@ -86,7 +86,7 @@ class Channel {
     }
     for (const ReaderPtr& reader : peers) {
       reader->events.Matched(-1, --reader->matched);
-      reader->events.Liveliness(-1, 0, reader->matched);
+      reader->events.Liveliness(reader->matched, 0);
     }
   }
 
@@ -109,7 +109,7 @@ class Channel {
       for (const WriterPtr& writer : peers) {
         writer->events.Matched(1, ++writer->matched);
         reader->events.Matched(1, ++reader->matched);
-        reader->events.Liveliness(1, 0, reader->matched);
+        reader->events.Liveliness(reader->matched, 0);
       }
     }
     reader->mailbox.Release();

@@ -46,15 +46,29 @@ TEST_F(EndpointEventsTest, CountsAndTellsWhatHappened) {
 }
 
 TEST_F(EndpointEventsTest, ASilentWriterIsLostALeavingOneIsNot) {
-  events_.Liveliness(2, 0, 2);
-  events_.Liveliness(-1, 0, 1);
+  events_.Liveliness(2, 0);
+  events_.Liveliness(1, 0);
   EXPECT_EQ(events_.counters().liveliness_lost, 0U);
-  events_.Liveliness(-1, 1, 0);
+  events_.Liveliness(0, 1);
   EXPECT_EQ(events_.counters().liveliness_lost, 1U);
   EXPECT_EQ(events_.counters().alive_writers, 0);
   ASSERT_EQ(seen_.size(), 2U);
   EXPECT_EQ(seen_[0].kind, BusEventKind::kLivelinessGained);
   EXPECT_EQ(seen_[1].kind, BusEventKind::kLivelinessLost);
+}
+
+TEST_F(EndpointEventsTest, ASilentWriterThatReturnsIsGainedAgain) {
+  events_.Liveliness(1, 0);
+  events_.Liveliness(0, 1);
+  events_.Liveliness(1, 0);
+  events_.Liveliness(1, 0);  // told twice: once is enough
+  events_.Liveliness(0, 1);
+  EXPECT_EQ(events_.counters().liveliness_lost, 2U);
+  ASSERT_EQ(seen_.size(), 4U);
+  EXPECT_EQ(seen_[1].kind, BusEventKind::kLivelinessLost);
+  EXPECT_EQ(seen_[2].kind, BusEventKind::kLivelinessGained);
+  EXPECT_EQ(seen_[2].count, 1);
+  EXPECT_EQ(seen_[3].kind, BusEventKind::kLivelinessLost);
 }
 
 TEST_F(EndpointEventsTest, AfterCloseNothingIsToldButStillCounted) {
