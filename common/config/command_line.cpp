@@ -30,9 +30,11 @@ CommandLine::CommandLine(std::string program, std::string description, std::stri
   app_.set_version_flag("--version", fmt::format("{} {}", program_, Version()),
                         "Print the version and exit");
   app_.set_help_flag("-h,--help", "Print this help and exit");
-  app_.add_option("-c,--config", config_path_,
-                  "TOML file with the settings (deploy/config has one to start from)")
-      ->type_name("FILE.toml");
+  app_.add_option("-c,--config", config_paths_,
+                  "TOML file with the settings (deploy/config has one to start from); several are "
+                  "put one over the other")
+      ->type_name("FILE.toml")
+      ->allow_extra_args(false);
   app_.add_option("--set", overrides_, "Put one setting over the file; may be given several times")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -55,12 +57,16 @@ std::optional<int> CommandLine::Parse(int argc, const char* const* argv) {
 
 Result<ConfigFile> CommandLine::LoadConfig() const {
   ConfigFile file;
-  if (!config_path_.empty()) {
-    Result<ConfigFile> loaded = ConfigFile::Load(config_path_);
+  for (const std::string& path : config_paths_) {
+    Result<ConfigFile> loaded = ConfigFile::Load(path);
     if (!loaded) {
       return loaded.error();
     }
-    file = std::move(*loaded);
+    if (&path == &config_paths_.front()) {
+      file = std::move(*loaded);
+    } else {
+      file.PutOver(std::move(*loaded));
+    }
   }
   for (const std::string& assignment : overrides_) {
     if (const Status done = file.Override(assignment); !done) {

@@ -41,7 +41,7 @@ class CommandLine {
  private:
   std::string program_;
   CLI::App app_;
-  std::string config_path_;
+  std::vector<std::string> config_paths_;
   std::vector<std::string> overrides_;
 };
 

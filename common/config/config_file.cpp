@@ -261,6 +261,10 @@ Result<ConfigFile> ConfigFile::Parse(std::string_view text, std::string name) {
   return ConfigFile(std::move(document));
 }
 
+void ConfigFile::PutOver(ConfigFile other) {
+  internal::Merge(document_->root, other.document_->root);
+}
+
 Status ConfigFile::Override(std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == 0 || equals == std::string_view::npos) {

@@ -125,6 +125,10 @@ class ConfigFile {
   /// The same from text; `name` stands for the file in messages.
   [[nodiscard]] static Result<ConfigFile> Parse(std::string_view text, std::string name);
 
+  /// Puts what another file says over what this one says, table by table. Its lines keep their
+  /// file's name in messages.
+  void PutOver(ConfigFile other);
+
   /// Puts "key.path=value" (a line of TOML; a bare word counts as text) over what the file says, as
   /// the --set option does.
   [[nodiscard]] Status Override(std::string_view assignment);

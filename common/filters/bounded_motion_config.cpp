@@ -34,6 +34,8 @@ constexpr std::array kFields = {
     Number<&C::scatter_floor_ref>("scatter_floor_ref", 0.0, kInfinity, true),
     Number<&C::walk_reference_ref_rts>("walk_reference_ref_rts", 0.0, 1.0),
     Number<&C::sigma_reference_start_ref>("sigma_reference_start_ref", 0.0, 1.0),
+    Number<&C::reference_field_tesla>("reference_field_tesla", 0.0, 1e-3),
+    Number<&C::reference_dip_rad>("reference_dip_rad", -1.57, 1.57),
     Number<&C::carried_jump_ref_rts>("carried_jump_ref_rts", 0.0, 100.0),
     Number<&C::carried_jump_threshold_ref>("carried_jump_threshold_ref", 0.0, 10.0, true),
     Number<&C::carried_jump_time_s>("carried_jump_time_s", 0.0, 10.0, true),

@@ -79,6 +79,12 @@ struct BoundedMotionConfig {
   /// heading. 0 = the reference of the start stands. Range: [0, 1].
   double walk_reference_ref_rts = 0.005;
   double sigma_reference_start_ref = 0.03;
+  /// The session's field as measured before it (`limbcast calibrate session`): length and dip below
+  /// the horizontal. A sensor whose field differs at the start is then beside iron, and its heading
+  /// as doubtful as the difference allows. 0 = each sensor's own field at its start. Ranges: [0,
+  /// 1e-3], [-1.57, 1.57].
+  double reference_field_tesla = 0.0;
+  double reference_dip_rad = 0.0;
   /// A mean deviation above the threshold opens the covariance of the carried field. Range: [0,
   /// 100].
   double carried_jump_ref_rts = 15.0;

@@ -158,6 +158,9 @@ class BoundedMotionCore {
   /// Adds to the attitude variance (all axes) with the next slow step, e.g. for a bridged gap.
   void InflateAttitude(Scalar variance_rad2) { state_.sum_extra_theta += variance_rad2; }
 
+  /// Adds to the heading variance at once, e.g. for a start beside iron.
+  void InflateHeading(Scalar variance_rad2) { state_.P(2, 2) += variance_rad2; }
+
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] State& mutable_state() { return state_; }
   [[nodiscard]] bool at_rest() const {

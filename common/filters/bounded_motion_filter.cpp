@@ -16,6 +16,8 @@ constexpr double kMagneticUnusedAfter_s = 1.0;
 constexpr double kDisturbedAbove_ref = 0.15;
 constexpr double kSaturatedRateShare = 0.2;
 constexpr int kMostSubSteps = 500;
+constexpr double kAnyHeading_rad2 =
+    3.3;                              // π²/3: the variance of a heading that nothing is known of
 constexpr double kLostStart_s = 2.0;  // nobody waits for rest: the mean over motion needs longer
 
 }  // namespace
@@ -145,11 +147,14 @@ SampleVerdict BoundedMotionFilter<Scalar>::UpdateStart() {
   if (state_.lost) {
     field_tesla = state_.reference_tesla;
   } else if (start->has_field && core_.state().has_field == Scalar(0)) {
-    field_tesla = start->mag_in_earth_tesla;
-    state_.reference_tesla = ReferenceField(field_tesla);
+    field_tesla = ReferenceFor(start->mag_in_earth_tesla);
+    state_.reference_tesla = field_tesla;
   }
   core_.Start(estimate.q_earth_sensor.template cast<Scalar>(), field_tesla.template cast<Scalar>(),
               estimate.started && !state_.lost);
+  if (start->has_field) {
+    DoubtHeading(start->mag_in_earth_tesla);
+  }
   estimate.started = true;
   state_.starting = false;
   state_.lost = false;
@@ -167,8 +172,34 @@ void BoundedMotionFilter<Scalar>::AdoptField(const Eigen::Vector3d& mag_in_earth
   const double north_rad = std::atan2(mag_in_earth_tesla.x(), mag_in_earth_tesla.y());
   const Eigen::Quaterniond q_turn = math::ExpSO3({0.0, 0.0, north_rad});
   core_.TurnHeading(q_turn.template cast<Scalar>());
-  core_.AdoptField((q_turn * mag_in_earth_tesla).template cast<Scalar>());
-  state_.reference_tesla = ReferenceField(mag_in_earth_tesla);
+  state_.reference_tesla = ReferenceFor(mag_in_earth_tesla);
+  core_.AdoptField(state_.reference_tesla.template cast<Scalar>());
+  DoubtHeading(mag_in_earth_tesla);
+}
+
+// The session's field where it was measured, else what this sensor sees at its start.
+template <typename Scalar>
+Eigen::Vector3d BoundedMotionFilter<Scalar>::ReferenceFor(
+    const Eigen::Vector3d& mag_in_earth_tesla) const {
+  const BoundedMotionConfig& config = core_.config();
+  if (config.reference_field_tesla > 0.0) {
+    return config.reference_field_tesla * Eigen::Vector3d(0.0, std::cos(config.reference_dip_rad),
+                                                          -std::sin(config.reference_dip_rad));
+  }
+  return ReferenceField(mag_in_earth_tesla);
+}
+
+// Whatever changes the session's field that much in length and upward part may have added as much
+// sideways.
+template <typename Scalar>
+void BoundedMotionFilter<Scalar>::DoubtHeading(const Eigen::Vector3d& mag_in_earth_tesla) {
+  if (!(core_.config().reference_field_tesla > 0.0)) {
+    return;  // the start is the reference
+  }
+  const Eigen::Vector3d off_tesla = ReferenceField(mag_in_earth_tesla) - state_.reference_tesla;
+  const double north_tesla = state_.reference_tesla.y();
+  const double doubt_rad = north_tesla > 0.0 ? off_tesla.norm() / north_tesla : 0.0;
+  core_.InflateHeading(static_cast<Scalar>(std::min(doubt_rad * doubt_rad, kAnyHeading_rad2)));
 }
 
 // One step, or over a gap several of the nominal length with the mean rate, of which only the last

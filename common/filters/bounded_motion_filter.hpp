@@ -97,6 +97,8 @@ class BoundedMotionFilter final : public OrientationFilter {
   SampleVerdict UpdateStart();
   void Feed();
   void AdoptField(const Eigen::Vector3d& mag_in_earth_tesla);
+  [[nodiscard]] Eigen::Vector3d ReferenceFor(const Eigen::Vector3d& mag_in_earth_tesla) const;
+  void DoubtHeading(const Eigen::Vector3d& mag_in_earth_tesla);
 
   BoundedMotionCore<Scalar> core_;
   std::string_view name_;

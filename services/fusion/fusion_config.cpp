@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 namespace limbcast::fusion {
@@ -42,6 +43,7 @@ FusionConfig ReadFusionConfig(const config::ConfigFile& file) {
   config.queue_capacity = fusion.Read("queue_capacity", config.queue_capacity, 64, 1U << 20U);
   config.max_future_s =
       fusion.Read("max_future_s", config.max_future_s, kMinFuture_s, kMaxFuture_s);
+  config.declination_deg = fusion.Read("declination_deg", config.declination_deg, -180.0, 180.0);
 
   const config::Section filter = file.Get("filter");
   config.filter = ReadChoice(filter, config.filter);
@@ -89,6 +91,10 @@ Status Validate(const FusionConfig& config, const FilterFactory& factory) {
   if (!(config.max_future_s >= kMinFuture_s && config.max_future_s <= kMaxFuture_s)) {
     return refuse(
         fmt::format("fusion.max_future_s must be in [0.001, 1e9], is {}", config.max_future_s));
+  }
+  if (!(std::abs(config.declination_deg) <= 180.0)) {
+    return refuse(fmt::format("fusion.declination_deg must be in [-180, 180], is {}",
+                              config.declination_deg));
   }
   if (Status made = CheckChoice(factory, config.filter, "filter"); !made) {
     return made;

@@ -36,6 +36,10 @@ struct FusionConfig {
   /// recording played faster than real time runs ahead of the clock. Range: [0.001, 1e9].
   double max_future_s = 86400.0;
 
+  /// Magnetic north's bearing from true north, clockwise (east) positive: what is published then
+  /// has y to true north where a magnetometer gives heading. Range: [-180, 180].
+  double declination_deg = 0.0;
+
   FilterChoice filter;
   std::map<body::Segment, FilterChoice> segment_filters;  ///< segments that differ
   std::map<std::string, std::vector<filters::Setting>, std::less<>> filter_settings;  ///< by filter

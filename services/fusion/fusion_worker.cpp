@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/units/units.hpp"
+
 namespace limbcast::fusion {
 
 namespace {
@@ -25,6 +27,7 @@ FusionWorker::FusionWorker(const FusionConfig& config, const FilterFactory& fact
       writer_(writer),
       latencies_(latencies),
       max_future_(DurationFromSeconds(config.max_future_s)),
+      declination_rad_(units::RadFromDeg(config.declination_deg)),
       queue_(config.queue_capacity) {}
 
 void FusionWorker::Drain() {
@@ -139,7 +142,8 @@ void FusionWorker::Handle(const std::shared_ptr<const BodyPlan>& plan) {
       found->second.track.Apply(track, seated_);
     } else {
       tracks_.erase(track.sensor_uid);
-      tracks_.try_emplace(track.sensor_uid, plan->body_id, track, seated_, max_future_);
+      tracks_.try_emplace(track.sensor_uid, plan->body_id, track, seated_, max_future_,
+                          declination_rad_);
     }
   }
 }

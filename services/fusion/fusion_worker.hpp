@@ -87,8 +87,9 @@ class FusionWorker {
   void DisposeAbsent(BodyId body_id, const BodyPlan& plan);
 
   struct Tracked {
-    Tracked(BodyId body, const TrackPlan& plan, const FilterFactory& factory, Duration max_future)
-        : body_id(body), track(body, plan, factory, max_future) {}
+    Tracked(BodyId body, const TrackPlan& plan, const FilterFactory& factory, Duration max_future,
+            double declination_rad)
+        : body_id(body), track(body, plan, factory, max_future, declination_rad) {}
     BodyId body_id;
     SensorTrack track;
   };
@@ -99,6 +100,7 @@ class FusionWorker {
   bus::Writer<body::SegmentState>& writer_;
   FusionLatencies& latencies_;
   const Duration max_future_;
+  const double declination_rad_;
   runtime::BoundedQueue<Item> queue_;
   std::array<InRound, kFlushEvery> round_;
   std::size_t round_size_ = 0;

@@ -7,6 +7,7 @@
 
 #include "common/base/expects.hpp"
 #include "common/math/rotation.hpp"
+#include "common/units/frames.hpp"
 #include "common/units/units.hpp"
 
 namespace limbcast::fusion {
@@ -34,9 +35,12 @@ bool IsUsable(const sensing::FusedOrientation& orientation) {
 }  // namespace
 
 SensorTrack::SensorTrack(BodyId body_id, const TrackPlan& plan, const FilterFactory& factory,
-                         Duration max_future)
+                         Duration max_future, double declination_rad)
     : body_id_(body_id),
       max_future_(max_future),
+      q_true_magnetic_(
+          units::TrueFromMagneticNorth(Eigen::Quaterniond::Identity(), declination_rad)),
+      has_declination_(declination_rad != 0.0),
       plan_(plan),
       filter_(MakeChosen(factory, plan.filters.name)),
       beside_(plan.filters.beside.empty() ? nullptr : MakeChosen(factory, plan.filters.beside)),
@@ -123,7 +127,7 @@ void SensorTrack::Start(SegmentState& state, std::uint32_t sequence, Time measur
                   .fusion_received_at = reception.received_at};
 }
 
-void SensorTrack::Fill(SegmentState& state, const filters::OrientationFilter& filter) {
+void SensorTrack::Fill(SegmentState& state, const filters::OrientationFilter& filter) const {
   const filters::FilterEstimate& estimate = filter.estimate();
   state.started = estimate.started;
   state.degraded = estimate.degraded;
@@ -135,6 +139,22 @@ void SensorTrack::Fill(SegmentState& state, const filters::OrientationFilter& fi
   state.free_accel_in_earth_m_s2 = estimate.free_accel_in_earth_m_s2.cast<float>();
   state.cov_orientation_rad2 = estimate.cov_orientation_rad2.cast<float>();
   state.filter = filter.name();
+  if (has_declination_) {
+    TurnToTrueNorth(state);
+  }
+}
+
+// Always, so that a heading that is held without a field does not jump; only one with a field is
+// called true.
+void SensorTrack::TurnToTrueNorth(SegmentState& state) const {
+  const Eigen::Matrix3f R_true_magnetic = q_true_magnetic_.toRotationMatrix().cast<float>();
+  state.q_earth_sensor = math::Canonical(q_true_magnetic_ * state.q_earth_sensor);
+  state.free_accel_in_earth_m_s2 = R_true_magnetic * state.free_accel_in_earth_m_s2;
+  state.cov_orientation_rad2 =
+      R_true_magnetic * state.cov_orientation_rad2 * R_true_magnetic.transpose();
+  if (state.heading == HeadingReference::kMagnetic) {
+    state.heading = HeadingReference::kTrue;
+  }
 }
 
 void SensorTrack::Count(SegmentState& state, const Source& source, SampleVerdict verdict) {

@@ -37,8 +37,10 @@ class SensorTrack {
     std::int64_t lost = 0;
   };
 
+  /// @param declination_rad  what is published of a filter is turned by it from magnetic to true
+  ///                         north. Range: [−π, π].
   SensorTrack(BodyId body_id, const TrackPlan& plan, const FilterFactory& factory,
-              Duration max_future);
+              Duration max_future, double declination_rad = 0.0);
 
   /// A new plan for the same sensor and body. A filter that is replaced goes on until the new one,
   /// started from the measurements, has an orientation; if the new one ran beside it, it takes over
@@ -85,11 +87,14 @@ class SensorTrack {
                                           const sensing::MargSample& sample);
   void Start(body::SegmentState& state, std::uint32_t sequence, Time measured_at,
              Time gateway_published_at, const Reception& reception) const;
-  static void Fill(body::SegmentState& state, const filters::OrientationFilter& filter);
+  void Fill(body::SegmentState& state, const filters::OrientationFilter& filter) const;
+  void TurnToTrueNorth(body::SegmentState& state) const;
   static void Count(body::SegmentState& state, const Source& source, SampleVerdict verdict);
 
   const BodyId body_id_;
   const Duration max_future_;
+  const Eigen::Quaterniond q_true_magnetic_;
+  const bool has_declination_;
   TrackPlan plan_;
   FilterPtr filter_;
   FilterPtr incoming_;  // takes the place of filter_ as soon as it has an orientation

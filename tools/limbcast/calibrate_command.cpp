@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/config/durable_file.hpp"
 #include "common/runtime/stop_signal.hpp"
 #include "common/runtime/system_clock.hpp"
 #include "common/units/units.hpp"
@@ -161,6 +162,16 @@ int CalibrateSession(const service::ServiceCommandLine& line, CalibrateOptions o
     references.push_back(std::move(named));
   }
   fmt::print("{}", SessionText(references, config));
+  if (!options.out.empty()) {
+    const Result<std::string> settings = SessionToml(references, config);
+    if (!settings) {
+      return line.Fail(settings.error());
+    }
+    if (const Status saved = config::WriteDurably(options.out, *settings); !saved) {
+      return line.Fail(saved.error());
+    }
+    fmt::print("-> {}\n", options.out);
+  }
   return 0;
 }
 
@@ -206,8 +217,12 @@ SubCommand AddCalibrateCommand(service::ServiceCommandLine& line) {
       "session",
       "Local gravity and field from the first seconds at rest, and which sensors see it "
       "disturbed.\nExample:\n  limbcast calibrate session --recording walk.hdf5 "
-      "--declination-deg 4.2");
+      "--declination-deg 4.2 --out session.toml\n  limbcast-fusion --config fusion.toml --config "
+      "session.toml");
   AddCommon(*session, *options);
+  session
+      ->add_option("--out", options->out, "Write what was measured as settings of limbcast-fusion")
+      ->type_name("FILE.toml");
   session
       ->add_option("--declination-deg", options->declination_deg,
                    "Magnetic north's bearing from true north, east positive")

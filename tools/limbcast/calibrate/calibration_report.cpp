@@ -36,6 +36,16 @@ std::string Row(const char* name, const sensing::ChannelReport& channel) {
   return channel.refusal.empty() ? row : row + fmt::format("         {}\n", channel.refusal);
 }
 
+std::vector<sensing::SessionReference> KnownReferences(std::span<const NamedReference> sensors) {
+  std::vector<sensing::SessionReference> known;
+  for (const NamedReference& sensor : sensors) {
+    if (sensor.refusal.empty()) {
+      known.push_back(sensor.reference);
+    }
+  }
+  return known;
+}
+
 }  // namespace
 
 std::string CalibrationText(const NamedReport& sensor) {
@@ -53,14 +63,28 @@ std::string CalibrationText(const NamedReport& sensor) {
   return text + Row("accel", report.accel) + Row("mag", report.mag) + Row("gyro", report.gyro);
 }
 
+Result<std::string> SessionToml(std::span<const NamedReference> sensors,
+                                const sensing::SessionConfig& config) {
+  const sensing::SessionReference common =
+      sensing::CommonReference(KnownReferences(sensors), config);
+  if (!(common.field_tesla > 0.0)) {
+    return Error{ErrorCode::kInvalidArgument,
+                 "no sensor with a magnetometer lay still: there is no field to write"};
+  }
+  return fmt::format(
+      "# Measured by limbcast calibrate session, for limbcast-fusion --config THIS_FILE\n"
+      "[fusion]\n"
+      "declination_deg = {:.3f}\n"
+      "\n"
+      "[filter.settings.bmf]\n"
+      "reference_field_tesla = {:.4e}\n"
+      "reference_dip_rad = {:.5f}\n",
+      units::DegFromRad(common.declination_rad), common.field_tesla, common.dip_rad);
+}
+
 std::string SessionText(std::span<const NamedReference> sensors,
                         const sensing::SessionConfig& config) {
-  std::vector<sensing::SessionReference> known;
-  for (const NamedReference& sensor : sensors) {
-    if (sensor.refusal.empty()) {
-      known.push_back(sensor.reference);
-    }
-  }
+  const std::vector<sensing::SessionReference> known = KnownReferences(sensors);
   const sensing::SessionReference common = sensing::CommonReference(known, config);
   std::string text = fmt::format("gravity {:.3f} m/s²", common.gravity_m_s2);
   text += common.field_tesla > 0.0

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/result.hpp"
 #include "common/sensing/calibrate_sensor.hpp"
 #include "common/sensing/session_reference.hpp"
 
@@ -30,6 +31,11 @@ struct NamedReference {
   sensing::SessionReference reference;  ///< meaningful when `refusal` is empty
   std::string refusal;
 };
+
+/// Settings for limbcast-fusion (--config) that say what field this session has: reference of bmf
+/// and declination. kInvalidArgument when no sensor with a magnetometer lay still.
+[[nodiscard]] Result<std::string> SessionToml(std::span<const NamedReference> sensors,
+                                              const sensing::SessionConfig& config);
 
 /// The session's gravity and field, and a line for each sensor: undisturbed, or how it differs.
 [[nodiscard]] std::string SessionText(std::span<const NamedReference> sensors,

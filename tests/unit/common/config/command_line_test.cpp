@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace limbcast::config {
 namespace {
 
@@ -77,6 +79,25 @@ TEST(CommandLineTest, ConfigAndSetMakeTheConfiguration) {
   EXPECT_EQ(file->Root().Read("a", 0, 0, 9), 5);
   EXPECT_EQ(file->Root().Read("b", 0, 0, 9), 2);
   EXPECT_EQ(file->Root().Read("c", "", 9), "word");
+}
+
+TEST(CommandLineTest, ASecondFileGoesOverTheFirstAndIsNamedInMessages) {
+  const test_support::TemporaryFolder folder;
+  const std::string first = folder / "first.toml";
+  const std::string second = folder / "second.toml";
+  std::ofstream(first) << "[t]\na = 1\nb = 2\n";
+  std::ofstream(second) << "[t]\n\nb = 33\nc = 4\n";
+  CommandLine command = MakeCommand();
+  ASSERT_EQ(
+      ParseArgs(command, "--config", first.c_str(), "--config", second.c_str(), "--set", "t.c=5"),
+      std::nullopt);
+  const Result<ConfigFile> file = command.LoadConfig();
+  ASSERT_TRUE(file.ok());
+  EXPECT_EQ(file->Get("t").Read("a", 0, 0, 9), 1);
+  EXPECT_EQ(file->Get("t").Read("c", 0, 0, 9), 5);
+  EXPECT_TRUE(file->Get("t").Has("b"));
+  EXPECT_EQ(file->Get("t").Read("b", 0, 0, 9), 0);
+  EXPECT_EQ(file->Finish().error().message, second + ":3: t.b must be in [0, 9], is 33");
 }
 
 TEST(CommandLineTest, AnUnreadableFileAndABadSetAreRefused) {

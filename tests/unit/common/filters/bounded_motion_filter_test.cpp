@@ -101,6 +101,48 @@ TEST(BoundedMotionFilterTest, ALocalFieldAtTheStartIsForgottenAwayFromIt) {
   EXPECT_LT(final_error(BoundedMotionConfig()), 2.0 * kDeg);
 }
 
+// With the session's field known, a start beside iron is seen at once: heading is in doubt, and
+// right soon after the sensor leaves the place.
+TEST(BoundedMotionFilterTest, TheSessionsFieldTellsAStartBesideIron) {
+  MargStreamConfig config;
+  config.rate_hz = 200.0;
+  config.rest_s = 5.0;
+  config.rate_rms_rad_s = 1.0;
+  config.mag_noise_tesla = 0.5e-6;
+  config.nearby_tesla = [](double t) {
+    return t < 10.0 ? Eigen::Vector3d(4e-6, 1e-6, 2e-6) : Eigen::Vector3d::Zero().eval();
+  };
+  struct Outcome {
+    double at_start_rad = 0.0;
+    double sigma_at_start_rad = 0.0;
+    double after_rad = 0.0;
+  };
+  const auto run = [&config](const BoundedMotionConfig& filter_config) {
+    MargStream stream(config);
+    BoundedMotionFilter<double> filter{filter_config};
+    Outcome outcome;
+    while (stream.time_s() < 30.0) {
+      static_cast<void>(filter.Update(stream.Next()));
+      if (stream.time_s() < 1.0) {
+        outcome.at_start_rad = HeadingError_rad(filter, stream);
+        outcome.sigma_at_start_rad = std::sqrt(filter.estimate().cov_orientation_rad2(2, 2));
+      }
+    }
+    outcome.after_rad = HeadingError_rad(filter, stream);
+    return outcome;
+  };
+  BoundedMotionConfig session;
+  session.reference_field_tesla = config.field_tesla;
+  session.reference_dip_rad = config.dip_rad;
+  const Outcome with = run(session);
+  const Outcome without = run(BoundedMotionConfig());
+  EXPECT_GT(with.at_start_rad, 10.0 * kDeg);  // nothing tells better at the start
+  EXPECT_LT(with.at_start_rad, 2.0 * with.sigma_at_start_rad);
+  EXPECT_GT(without.at_start_rad, 2.0 * without.sigma_at_start_rad);
+  EXPECT_LT(with.after_rad, 2.0 * kDeg);
+  EXPECT_GT(without.after_rad, 5.0 * kDeg);
+}
+
 // The guard: a stationary magnet turns the field here and there and leaves length and dip nearly
 // alone.
 TEST(BoundedMotionFilterTest, AFieldTurnedHereAndThereTurnsHeadingLessThanWithoutTheGuard) {

@@ -75,6 +75,10 @@ TEST(FusionConfigTest, ValidateRefusesFiltersThatNobodyMakesAndValuesOutsideThei
   config = {};
   config.max_future_s = 0.0;
   EXPECT_FALSE(Validate(config, factory).ok());
+  config = {};
+  config.declination_deg = 181.0;
+  EXPECT_EQ(Validate(config, factory).error().message,
+            "fusion.declination_deg must be in [-180, 180], is 181");
 }
 
 TEST(FusionConfigTest, TheFileThatIsDeployedSaysTheDefaults) {
@@ -90,6 +94,7 @@ TEST(FusionConfigTest, TheFileThatIsDeployedSaysTheDefaults) {
   EXPECT_EQ(config.workers, defaults.workers);
   EXPECT_EQ(config.queue_capacity, defaults.queue_capacity);
   EXPECT_EQ(config.max_future_s, defaults.max_future_s);
+  EXPECT_EQ(config.declination_deg, defaults.declination_deg);
   EXPECT_EQ(config.filter, defaults.filter);
   EXPECT_TRUE(config.segment_filters.empty());
 }

@@ -58,6 +58,35 @@ TEST_F(SensorTrackTest, AUsedSampleGivesOneStateWithEverythingFilledIn) {
   EXPECT_EQ(state.verdicts[SampleVerdict::kFused], 1U);
 }
 
+TEST_F(SensorTrackTest, ADeclinationTurnsWhatIsPublishedToTrueNorth) {
+  constexpr double kDeclination_rad = 0.1;  // magnetic north lies east of true north
+  SensorTrack turned{BodyId{5}, Plan("bmf"), [](auto name) { return filters::MakeFilter(name); },
+                     1h, kDeclination_rad};
+  SensorTrack magnetic{BodyId{5}, Plan("bmf"), [](auto name) { return filters::MakeFilter(name); },
+                       1h};
+  body::SegmentState by_true;
+  body::SegmentState by_magnetic;
+  for (std::uint32_t i = 1; i <= 100; ++i) {
+    sensing::MargSample sample = Sample(i);
+    sample.accel_m_s2 = {0.5F, 0.0F, 9.8F};
+    sample.mag_tesla = {2e-5F, 0.0F, -4e-5F};
+    const Reception reception{.received_at = sample.measured_at + 2ms, .overloads = 0};
+    by_true = turned.Update(sample, reception).states[0];
+    by_magnetic = magnetic.Update(sample, reception).states[0];
+  }
+  ASSERT_TRUE(by_true.started);
+  EXPECT_EQ(by_magnetic.heading, HeadingReference::kMagnetic);
+  EXPECT_EQ(by_true.heading, HeadingReference::kTrue);
+  const Eigen::Quaterniond q_true_magnetic = math::ExpSO3({0.0, 0.0, -kDeclination_rad});
+  EXPECT_LT(
+      math::AngleBetween_rad(by_true.q_earth_sensor, q_true_magnetic * by_magnetic.q_earth_sensor),
+      1e-9);
+  EXPECT_TRUE(by_true.free_accel_in_earth_m_s2.isApprox(
+      q_true_magnetic.cast<float>() * by_magnetic.free_accel_in_earth_m_s2, 1e-5F));
+  EXPECT_NEAR(by_true.cov_orientation_rad2.trace(), by_magnetic.cov_orientation_rad2.trace(),
+              1e-5F * by_magnetic.cov_orientation_rad2.trace());
+}
+
 TEST_F(SensorTrackTest, TheQuaternionIsPublishedWithPositiveW) {
   sensing::MargSample sample = Sample(1);
   sample.gyro_rad_s.x() = 4.0F;  // Exp of more than π about x has w < 0

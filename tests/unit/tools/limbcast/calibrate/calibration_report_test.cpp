@@ -62,6 +62,21 @@ TEST(CalibrationReportTest, TheSessionNamesWhoSeesADisturbedField) {
   EXPECT_THAT(text, HasSubstr("pelvis                   undisturbed"));
   EXPECT_THAT(text, HasSubstr("head                     never still"));
   EXPECT_THAT(text, HasSubstr("left_foot                DISTURBED: field 70.0 uT"));
+
+  const auto settings = SessionToml(sensors, {.declination_rad = 0.0733038});
+  ASSERT_TRUE(settings.ok());
+  EXPECT_THAT(*settings, HasSubstr("declination_deg = 4.200\n"));
+  EXPECT_THAT(*settings, HasSubstr("reference_field_tesla = 4.8000e-05\n"));
+  EXPECT_THAT(*settings, HasSubstr("reference_dip_rad = 1.10000\n"));
+}
+
+TEST(CalibrationReportTest, WithoutAMagnetometerThereAreNoSessionSettings) {
+  const std::vector<NamedReference> sensors = {
+      {.name = "pelvis", .reference = {.gravity_m_s2 = 9.81}, .refusal = {}},
+      {.name = "head", .reference = {.field_tesla = 48e-6}, .refusal = "never still"}};
+  const auto settings = SessionToml(sensors, {});
+  ASSERT_FALSE(settings.ok());
+  EXPECT_THAT(settings.error().message, HasSubstr("no field to write"));
 }
 
 }  // namespace
