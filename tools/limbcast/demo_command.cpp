@@ -1,74 +1,12 @@
 #include "tools/limbcast/demo_command.hpp"
 
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <map>
 #include <memory>
-#include <string>
 
 #include "tools/limbcast/demo/demo.hpp"
-#include "tools/limbcast/demo/demo_options.hpp"
-#include "tools/limbcast/demo/free_domain.hpp"
+#include "tools/limbcast/demo_arguments.hpp"
 
 namespace limbcast::tool {
 namespace {
-
-const std::map<std::string, DemoDds> kDdsNames = {
-    {"cyclone", DemoDds::kCyclone}, {"fast", DemoDds::kFast}, {"mixed", DemoDds::kMixed}};
-
-struct DemoArguments {
-  DemoOptions options;
-  std::string dds = "cyclone";
-};
-
-// What the command line leaves open: the network of the client, a domain of our own, the folder.
-Status Complete(service::ServiceCommandLine& line, DemoArguments& arguments) {
-  DemoOptions& options = arguments.options;
-  const auto dds = kDdsNames.find(arguments.dds);
-  if (dds == kDdsNames.end()) {
-    return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("--dds must be cyclone, fast or mixed, is '{}'", arguments.dds)};
-  }
-  options.dds = dds->second;
-  const auto file = line.LoadConfig();
-  if (!file) {
-    return file.error();
-  }
-  auto bus_config = line.ReadBus(*file);
-  if (Status read = file->Finish(); !read) {
-    return read;
-  }
-  if (!bus_config) {
-    return bus_config.error();
-  }
-  options.bus = *bus_config;
-  options.bus.participant_name = "limbcast-demo";
-  options.bus.stream_depth = 1024;  // a recording played at full speed comes in gusts
-  options.bus.vendor =
-      VendorOf(options.dds, "client") == "fast" ? bus::Vendor::kFast : bus::Vendor::kCyclone;
-  if (line.app().count("--domain") == 0) {
-    const auto domain = FindFreeDomain();
-    if (!domain) {
-      return domain.error();
-    }
-    options.bus.domain_id = *domain;
-  }
-  if (!options.recording.empty() && !std::filesystem::exists(options.recording)) {
-    return Error{ErrorCode::kNotFound,
-                 fmt::format("--recording {}: no such file or folder", options.recording)};
-  }
-  if (options.folder.empty()) {
-    options.folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  }
-  if (!options.json_path.empty() && !std::ofstream(options.json_path)) {
-    return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("--json {}: cannot be written", options.json_path)};
-  }
-  return Ok();
-}
 
 int RunDemo(service::ServiceCommandLine& line, DemoArguments& arguments) {
   if (const Status complete = Complete(line, arguments); !complete) {
@@ -78,13 +16,8 @@ int RunDemo(service::ServiceCommandLine& line, DemoArguments& arguments) {
   if (!summary) {
     return line.Fail(summary.error());
   }
-  if (!arguments.options.json_path.empty()) {
-    std::ofstream file(arguments.options.json_path);
-    file << summary->dump(2) << '\n';
-    if (!file.flush()) {
-      return line.Fail({ErrorCode::kUnavailable,
-                        fmt::format("--json {}: cannot be written", arguments.options.json_path)});
-    }
+  if (const Status written = WriteJson(arguments, *summary); !written) {
+    return line.Fail(written.error());
   }
   return (*summary)["clean_exit"].get<bool>() ? 0 : 1;
 }
@@ -96,7 +29,6 @@ SubCommand AddDemoCommand(service::ServiceCommandLine& line) {
   DemoOptions& options = arguments->options;
   CLI::App* app = line.app().add_subcommand(
       "demo", "Run gateway, fusion and posture as processes on this host, and sum up");
-  app->add_option("--dds", arguments->dds, "cyclone (default), fast or mixed");
   app->add_option(
          "--recording", options.recording,
          "Play this instead of the simulated person: HDF5, CSV or a folder of text exports")
@@ -106,21 +38,7 @@ SubCommand AddDemoCommand(service::ServiceCommandLine& line) {
       "Of the recording: a factor, or max (default) for as fast as the pipeline takes it");
   app->add_option("--seconds", options.seconds, "End after so many seconds (default: Ctrl-C)")
       ->check(CLI::Range(0.1, 1e7));
-  app->add_option("--json", options.json_path, "Write the summary there as one JSON object")
-      ->type_name("FILE");
-  app->add_option("--service-set", options.service_settings,
-                  "A setting for all three services, e.g. bus.write_batching=false")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  app->add_option("--gateway-set", options.gateway_settings, "A setting for the gateway")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  app->add_option("--fusion-set", options.fusion_settings,
-                  "A setting for the fusion service, e.g. filter.name=ckf")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  app->add_option("--bin", options.folder, "Where the executables are (default: beside this one)")
-      ->type_name("FOLDER");
+  AddDemoOptions(*app, *arguments);
   return {.app = app, .run = [&line, arguments] { return RunDemo(line, *arguments); }};
 }
 

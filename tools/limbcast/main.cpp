@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "common/service/service_command_line.hpp"
+#include "tools/limbcast/bench_command.hpp"
 #include "tools/limbcast/calibrate_command.hpp"
 #include "tools/limbcast/coil_command.hpp"
 #include "tools/limbcast/demo_command.hpp"
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
       tool::AddDemoCommand(line),      tool::AddTopCommand(line),      tool::AddRunCommand(line),
       tool::AddEchoCommand(line),      tool::AddEvaluateCommand(line), tool::AddSmoothCommand(line),
       tool::AddCalibrateCommand(line), tool::AddCoilCommand(line),     tool::AddExportCommand(line),
+      tool::AddBenchCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;

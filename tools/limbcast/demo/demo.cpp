@@ -44,7 +44,9 @@ Result<nlohmann::json> Demo::Run() {
   }
   End();
   nlohmann::json summary = SumUp();
-  fmt::print("{}", SummaryText(summary));
+  if (!options_.quiet) {
+    fmt::print("{}", SummaryText(summary));
+  }
   if (const std::string errors = processes_.Errors(); !errors.empty() && !ended_cleanly_) {
     fmt::print(stderr, "{}", errors);
   }
@@ -91,9 +93,11 @@ Status Demo::Begin() {
   }
   reference_pose_ = std::move(*reference_pose);
 
-  fmt::print("limbcast demo: {} on {}, domain {}\n",
-             options_.recording.empty() ? "a simulated person" : options_.recording,
-             ToString(options_.dds), options_.bus.domain_id);
+  if (!options_.quiet) {
+    fmt::print("limbcast demo: {} on {}, domain {}\n",
+               options_.recording.empty() ? "a simulated person" : options_.recording,
+               ToString(options_.dds), options_.bus.domain_id);
+  }
   // From the end to the beginning, so that nothing is sent that nobody hears.
   for (const Part part : {Part::kPosture, Part::kFusion}) {
     if (const Status started = processes_.Start(part); !started) {
@@ -121,8 +125,8 @@ Status Demo::Begin() {
 
 Status Demo::Watch() {
   started_at_ = clock_.Now();
-  client_cpu_at_start_s_ = runtime::ReadProcessUsage().cpu_seconds;
-  view_->With([](PipelineModel& model) { model.health.Mark(); });
+  BeginToMeasure(started_at_);
+  const Time settled_at = started_at_ + DurationFromSeconds(options_.settle_seconds);
   const Time end_at =
       options_.seconds > 0.0 ? started_at_ + DurationFromSeconds(options_.seconds) : Time::max();
   while (clock_.Now() < end_at && !processes_.gateway_finished()) {
@@ -134,6 +138,9 @@ Status Demo::Watch() {
       return alive;
     }
     const Time now = clock_.Now();
+    if (measured_from_ < settled_at && now >= settled_at) {
+      BeginToMeasure(now);
+    }
     if (StandsAtFirst(options_)) {
       AskReferencePose(now);
     }
@@ -141,6 +148,13 @@ Status Demo::Watch() {
     ShowProgress(now);
   }
   return Ok();
+}
+
+void Demo::BeginToMeasure(Time now) {
+  measured_from_ = now;
+  client_cpu_at_start_s_ = runtime::ReadProcessUsage().cpu_seconds;
+  host_at_start_ = runtime::ReadHostUsage();
+  view_->With([](PipelineModel& model) { model.Mark(); });
 }
 
 void Demo::AskReferencePose(Time now) {
@@ -178,7 +192,7 @@ void Demo::CountErrorsFromWhenItFits() {
 }
 
 void Demo::ShowProgress(Time now) {
-  if (now < next_progress_) {
+  if (options_.quiet || now < next_progress_) {
     return;
   }
   const bool terminal = isatty(STDOUT_FILENO) != 0;
@@ -197,6 +211,7 @@ void Demo::ShowProgress(Time now) {
 void Demo::End() {
   ended_at_ = clock_.Now();
   client_cpu_seconds_ = runtime::ReadProcessUsage().cpu_seconds - client_cpu_at_start_s_;
+  host_used_ = runtime::ReadHostUsage() - host_at_start_;
   ended_cleanly_ = true;
   runtime::Sleeper sleeper;
   // In the direction of the stream, each one after it has done what the one before has sent; the
@@ -225,10 +240,12 @@ void Demo::End() {
 
 nlohmann::json Demo::SumUp() {
   DemoOutcome outcome;
-  outcome.duration_s = ToSeconds(ended_at_ - started_at_);
+  outcome.duration_s = ToSeconds(ended_at_ - measured_from_);
   outcome.restarts = processes_.restarts();
   outcome.child_cpu_seconds = processes_.cpu_seconds();
   outcome.client_cpu_seconds = client_cpu_seconds_;
+  outcome.host_busy_seconds = host_used_.busy_seconds;
+  outcome.host_stolen_seconds = host_used_.stolen_seconds;
   outcome.client_rss_mib = runtime::ReadProcessUsage().rss_mib;
   outcome.without_last_report = without_last_report_;
   outcome.reference_pose = reference_pose_->message();

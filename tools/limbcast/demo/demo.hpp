@@ -8,6 +8,7 @@
 
 #include "common/base/result.hpp"
 #include "common/bus/bus.hpp"
+#include "common/runtime/host_usage.hpp"
 #include "common/runtime/stop_signal.hpp"
 #include "common/runtime/system_clock.hpp"
 #include "tools/limbcast/demo/demo_options.hpp"
@@ -29,12 +30,16 @@ class Demo {
   /// that does not open. No child is left either way.
   [[nodiscard]] Result<nlohmann::json> Run();
 
+  /// Somebody asked this process to stop.
+  [[nodiscard]] bool stopped() const { return stop_signal_.Requested(); }
+
  private:
   [[nodiscard]] Status Begin();
   /// Looks after the children until `done` says so. kTimeout with `what` after `patience`.
   template <typename Done>
   [[nodiscard]] Status Await(Duration patience, const std::string& what, Done&& done);
   [[nodiscard]] Status Watch();
+  void BeginToMeasure(Time now);
   void AskReferencePose(Time now);
   void CountErrorsFromWhenItFits();
   void ShowProgress(Time now);
@@ -49,8 +54,11 @@ class Demo {
   std::unique_ptr<PipelineView> view_;
   std::unique_ptr<ReferencePose> reference_pose_;
   Time started_at_{};
+  Time measured_from_{};
   Time ended_at_{};
   double client_cpu_at_start_s_ = 0.0;
+  runtime::HostUsage host_at_start_;
+  runtime::HostUsage host_used_;
   double client_cpu_seconds_ = 0.0;
   bool counting_errors_ = false;
   Time next_progress_{};

@@ -32,18 +32,35 @@ json LatencyJson(const StageLatencies& latencies) {
 json CpuJson(const PipelineModel& model, const DemoOutcome& outcome) {
   constexpr double kMicroseconds = 1e6;
   constexpr double kShortest_s = 1.5;
-  const double frames = static_cast<double>(model.skeletons());
+  const double frames = static_cast<double>(model.skeletons_since_mark());
+  const double all_frames = static_cast<double>(model.skeletons());
   const double rate_hz = outcome.duration_s > 0.0 ? frames / outcome.duration_s : 0.0;
   json result = json::object();
   for (const auto& [role, cpu] : model.health.CpuByRole()) {
     if (cpu.span_s >= kShortest_s && rate_hz > 0.0) {
       result[role] = cpu.cpu_seconds / cpu.span_s / rate_hz * kMicroseconds;
     } else if (frames > 0 && outcome.child_cpu_seconds.contains(role)) {
-      result[role] = outcome.child_cpu_seconds.at(role) / frames * kMicroseconds;
+      result[role] = outcome.child_cpu_seconds.at(role) / all_frames * kMicroseconds;
     }
   }
   if (frames > 0) {
     result["client"] = outcome.client_cpu_seconds / frames * kMicroseconds;
+  }
+  return result;
+}
+
+// Cores that were busy on average: by process, and everything on this host.
+json CoresJson(const PipelineModel& model, const DemoOutcome& outcome) {
+  json result = json::object();
+  for (const auto& [role, cpu] : model.health.CpuByRole()) {
+    if (cpu.span_s > 0.0) {
+      result[role] = cpu.cpu_seconds / cpu.span_s;
+    }
+  }
+  if (outcome.duration_s > 0.0) {
+    result["client"] = outcome.client_cpu_seconds / outcome.duration_s;
+    result["host"] = outcome.host_busy_seconds / outcome.duration_s;
+    result["stolen"] = outcome.host_stolen_seconds / outcome.duration_s;
   }
   return result;
 }
@@ -100,6 +117,7 @@ json SummaryJson(const DemoOptions& options, const PipelineModel& model,
           {"orientation_error_deg", ErrorJson(model.errors)},
           {"reference_pose", outcome.reference_pose},
           {"cpu_us_per_body_frame", CpuJson(model, outcome)},
+          {"cores_busy", CoresJson(model, outcome)},
           {"rss_mib", MemoryJson(model, outcome)},
           {"restarts", outcome.restarts},
           {"without_last_report", outcome.without_last_report},

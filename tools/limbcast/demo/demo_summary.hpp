@@ -18,6 +18,8 @@ struct DemoOutcome {
   std::map<std::string, double> child_cpu_seconds;  ///< of their whole life
   double client_cpu_seconds = 0.0;                  ///< while skeletons came
   double client_rss_mib = 0.0;
+  double host_busy_seconds = 0.0;    ///< CPU time of the whole host meanwhile, ours included
+  double host_stolen_seconds = 0.0;  ///< CPU time that the host of a virtual machine kept
   /// Processes whose last report did not arrive: the counters lack what came after the one before.
   std::vector<std::string> without_last_report;
   std::string reference_pose;  ///< what the posture service said of it; "" = never asked

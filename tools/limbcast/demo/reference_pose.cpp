@@ -1,5 +1,6 @@
 #include "tools/limbcast/demo/reference_pose.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <utility>
@@ -24,8 +25,13 @@ Result<std::unique_ptr<ReferencePose>> ReferencePose::Make(bus::Bus& bus) {
            [self = made.get()](const roster::CommandReply& reply, const bus::SampleInfo&) {
              if (reply.client_uid == self->client_uid_) {
                const std::lock_guard lock(self->mutex_);
-               self->accepted_ = self->accepted_ || reply.accepted;
                self->message_ = reply.message;
+               const auto request = self->requests_.find(reply.request_id);
+               if (request != self->requests_.end()) {
+                 Asked& asked = self->bodies_[request->second];
+                 asked.accepted = asked.accepted || reply.accepted;
+                 self->requests_.erase(request);
+               }
              }
            },
        .on_disposed = {}});
@@ -37,13 +43,18 @@ Result<std::unique_ptr<ReferencePose>> ReferencePose::Make(bus::Bus& bus) {
 }
 
 void ReferencePose::Ask(BodyId body_id, Time now) {
-  if (accepted() || now - asked_at_ < kPause) {
-    return;
-  }
-  asked_at_ = now;
   roster::Command command;
+  {
+    const std::lock_guard lock(mutex_);
+    Asked& asked = bodies_[body_id];
+    if (asked.accepted || now - asked.at < kPause) {
+      return;
+    }
+    asked.at = now;
+    command.request_id = ++request_id_;
+    requests_[command.request_id] = body_id;
+  }
   command.client_uid = client_uid_;
-  command.request_id = ++request_id_;
   command.body_id = body_id;
   command.kind = roster::CommandKind::kReferencePose;
   if (const Status written = writer_->Write(command); !written) {
@@ -55,7 +66,8 @@ void ReferencePose::Ask(BodyId body_id, Time now) {
 
 bool ReferencePose::accepted() {
   const std::lock_guard lock(mutex_);
-  return accepted_;
+  return !bodies_.empty() && std::all_of(bodies_.begin(), bodies_.end(),
+                                         [](const auto& body) { return body.second.accepted; });
 }
 
 std::string ReferencePose::message() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,16 +12,17 @@
 
 namespace limbcast::tool {
 
-/// Asks the posture service to take the reference pose, again and again until it accepts.
-/// Thread-safe.
+/// Asks the posture service to take the reference pose of bodies, each again and again until it is
+/// accepted. Thread-safe.
 class ReferencePose {
  public:
   /// `bus` outlives it.
   [[nodiscard]] static Result<std::unique_ptr<ReferencePose>> Make(bus::Bus& bus);
 
-  /// Sends the command for `body_id` when none is on its way, at most every 300 ms.
+  /// Sends the command for `body_id` unless it was accepted, at most every 300 ms for each body.
   void Ask(BodyId body_id, Time now);
 
+  /// The pose of at least one body was asked for, and all that were are taken.
   [[nodiscard]] bool accepted();
   /// What the service said last; "" before its first answer.
   [[nodiscard]] std::string message();
@@ -31,9 +33,13 @@ class ReferencePose {
   std::unique_ptr<bus::Writer<roster::Command>> writer_;
   std::uint64_t client_uid_ = 0;
   std::uint64_t request_id_ = 0;
-  Time asked_at_{};
-  std::mutex mutex_;  // guards the two below
-  bool accepted_ = false;
+  struct Asked {
+    Time at{};
+    bool accepted = false;
+  };
+  std::mutex mutex_;  // guards all below
+  std::map<BodyId, Asked> bodies_;
+  std::map<std::uint64_t, BodyId> requests_;  // not yet accepted
   std::string message_;
   std::unique_ptr<bus::Reader<roster::CommandReply>> reader_;
 };

@@ -46,6 +46,12 @@ void PipelineModel::On(const body::SegmentState& value, Time received_at) {
   errors.AddSegmentState(value);
 }
 
+void PipelineModel::Mark() {
+  health.Mark();
+  latencies.Restart();
+  marked_skeletons = skeletons();
+}
+
 std::uint64_t PipelineModel::skeletons() const {
   std::uint64_t sum = 0;
   for (const auto& [id, body] : bodies) {

@@ -50,7 +50,13 @@ struct PipelineModel {
   void On(const body::SegmentTruth& value) { errors.AddTruth(value); }
   void On(const roster::RosterEntry& value) { bodies[value.body_id].person = value.person; }
 
+  /// Latencies, CPU time and skeletons_since_mark count from now on; everything else goes on.
+  void Mark();
+
   [[nodiscard]] std::uint64_t skeletons() const;
+  [[nodiscard]] std::uint64_t skeletons_since_mark() const {
+    return skeletons() - marked_skeletons;
+  }
   [[nodiscard]] std::uint64_t tracked_segments() const;
   /// Mean over the bodies, each from its first to its last skeleton.
   [[nodiscard]] double skeleton_rate_hz() const;
@@ -59,7 +65,8 @@ struct PipelineModel {
   StageLatencies latencies;
   OrientationErrors errors;
   std::map<BodyId, BodyView> bodies;
-  std::uint64_t probe_skeletons = 0;  ///< that came before anything was tracked
+  std::uint64_t probe_skeletons = 0;   ///< that came before anything was tracked
+  std::uint64_t marked_skeletons = 0;  ///< that had come at Mark
 };
 
 /// Where the samples went, from the counters of gateways and fusion services, over all restarts:

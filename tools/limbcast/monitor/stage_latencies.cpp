@@ -22,4 +22,11 @@ void StageLatencies::Add(const body::Skeleton& skeleton, Time received_at) {
   }
 }
 
+void StageLatencies::Restart() {
+  (void)total_.Take("");
+  for (runtime::LatencyHistogram& stage : stages_) {
+    (void)stage.Take("");
+  }
+}
+
 }  // namespace limbcast::tool

@@ -26,6 +26,9 @@ class StageLatencies {
 
   void Add(const body::Skeleton& skeleton, Time received_at);
 
+  /// Forgets what was added.
+  void Restart();
+
   [[nodiscard]] const runtime::LatencyHistogram& total() const { return total_; }
   [[nodiscard]] const runtime::LatencyHistogram& stage(std::size_t index) const {
     return stages_[index];

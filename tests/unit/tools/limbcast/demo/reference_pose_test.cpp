@@ -29,9 +29,10 @@ class ReferencePoseTest : public ::testing::Test {
     pose_ = ReferencePose::Make(*bus_).value();
   }
 
-  void Reply(std::uint64_t client_uid, bool accepted, const std::string& message) {
+  void Reply(const roster::Command& to, bool accepted, const std::string& message) {
     roster::CommandReply reply;
-    reply.client_uid = client_uid;
+    reply.client_uid = to.client_uid;
+    reply.request_id = to.request_id;
     reply.accepted = accepted;
     reply.message = message;
     ASSERT_TRUE(replies_->Write(reply).ok());
@@ -52,7 +53,7 @@ TEST_F(ReferencePoseTest, AsksAgainUntilItIsAccepted) {
   EXPECT_EQ(received_[0].kind, roster::CommandKind::kReferencePose);
   EXPECT_EQ(received_[0].body_id, BodyId{3});
 
-  Reply(received_[0].client_uid, false, "moving");
+  Reply(received_[0], false, "moving");
   EXPECT_EQ(pose_->message(), "moving");
   EXPECT_FALSE(pose_->accepted());
   pose_->Ask(BodyId{3}, kNow + 100ms);  // too soon
@@ -61,15 +62,31 @@ TEST_F(ReferencePoseTest, AsksAgainUntilItIsAccepted) {
   ASSERT_EQ(received_.size(), 2U);
   EXPECT_NE(received_[0].request_id, received_[1].request_id);
 
-  Reply(received_[1].client_uid, true, "aligned");
+  Reply(received_[1], true, "aligned");
   EXPECT_TRUE(pose_->accepted());
   pose_->Ask(BodyId{3}, kNow + 5s);
   EXPECT_EQ(received_.size(), 2U);
 }
 
+TEST_F(ReferencePoseTest, EachBodyIsAskedUntilItsOwnPoseIsTaken) {
+  pose_->Ask(BodyId{1}, kNow);
+  pose_->Ask(BodyId{2}, kNow);
+  ASSERT_EQ(received_.size(), 2U);
+  Reply(received_[1], true, "aligned");
+  EXPECT_FALSE(pose_->accepted());
+  pose_->Ask(BodyId{1}, kNow + 1s);
+  pose_->Ask(BodyId{2}, kNow + 1s);  // has it
+  ASSERT_EQ(received_.size(), 3U);
+  EXPECT_EQ(received_[2].body_id, BodyId{1});
+  Reply(received_[2], true, "aligned");
+  EXPECT_TRUE(pose_->accepted());
+}
+
 TEST_F(ReferencePoseTest, AnswersToOthersAreNotOurs) {
   pose_->Ask(BodyId{3}, kNow);
-  Reply(received_.at(0).client_uid + 1, true, "aligned");
+  roster::Command of_another = received_.at(0);
+  ++of_another.client_uid;
+  Reply(of_another, true, "aligned");
   EXPECT_FALSE(pose_->accepted());
   EXPECT_EQ(pose_->message(), "");
 }

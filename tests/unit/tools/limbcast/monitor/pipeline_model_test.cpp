@@ -51,6 +51,18 @@ TEST(PipelineModelTest, GapsInTheNumbersOfSkeletonsAreCounted) {
   EXPECT_EQ(model.bodies.at(BodyId{1}).lost, 3U);
 }
 
+TEST(PipelineModelTest, FromAMarkOnOnlyWhatComesLaterIsMeasured) {
+  PipelineModel model;
+  model.On(Skeleton(1, body::SegmentStatus::kTracked), kStart + 1s);
+  model.Mark();
+  EXPECT_EQ(model.latencies.total().count(), 0U);
+  model.On(Skeleton(4, body::SegmentStatus::kTracked), kStart + 1s);
+  EXPECT_EQ(model.latencies.total().count(), 1U);
+  EXPECT_EQ(model.skeletons_since_mark(), 1U);
+  EXPECT_EQ(model.skeletons(), 2U);
+  EXPECT_EQ(model.bodies.at(BodyId{1}).lost, 2U) << "losses count from the begin";
+}
+
 TEST(PipelineModelTest, TheFilterBesideIsNotTheOneInUse) {
   PipelineModel model;
   body::SegmentState state;

@@ -34,6 +34,17 @@ TEST(StageLatenciesTest, EachStageIsTheTimeBetweenItsDoors) {
   }
 }
 
+TEST(StageLatenciesTest, StartsAgainFromNothing) {
+  StageLatencies latencies;
+  const Time measured_at = TimeFromNanoseconds(1'000'000'000'000);
+  latencies.Add(Skeleton(measured_at), measured_at + 800us);
+  latencies.Restart();
+  EXPECT_EQ(latencies.total().count(), 0U);
+  for (std::size_t i = 0; i < StageLatencies::kNames.size(); ++i) {
+    EXPECT_EQ(latencies.stage(i).count(), 0U) << StageLatencies::kNames[i];
+  }
+}
+
 TEST(StageLatenciesTest, ADoorThatWasNotPassedCountsNowhere) {
   StageLatencies latencies;
   const Time measured_at = TimeFromNanoseconds(1'000'000'000'000);
