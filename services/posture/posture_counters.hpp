@@ -27,16 +27,29 @@ enum class Count : std::uint8_t {
   kDefinitions,
   kPublishErrors,
   kCalibrations,  ///< that the service made by itself
+  kAdopted,       ///< alignments taken over from another posture service
 };
-inline constexpr std::size_t kCountCount = 16;
+inline constexpr std::size_t kCountCount = 17;
 
 /// As in `health`: "states.received", ...
 [[nodiscard]] constexpr std::string_view NameOf(Count count) {
-  constexpr std::array<std::string_view, kCountCount> kNames = {
-      "states.received",    "states.used",         "states.late",      "states.ignored",
-      "states.unassigned",  "states.dropped",      "skeletons",        "skeletons.complete",
-      "skeletons.deadline", "skeletons.overtaken", "skeletons.probes", "commands.accepted",
-      "commands.refused",   "definitions",         "publish.errors",   "calibrations"};
+  constexpr std::array<std::string_view, kCountCount> kNames = {"states.received",
+                                                                "states.used",
+                                                                "states.late",
+                                                                "states.ignored",
+                                                                "states.unassigned",
+                                                                "states.dropped",
+                                                                "skeletons",
+                                                                "skeletons.complete",
+                                                                "skeletons.deadline",
+                                                                "skeletons.overtaken",
+                                                                "skeletons.probes",
+                                                                "commands.accepted",
+                                                                "commands.refused",
+                                                                "definitions",
+                                                                "publish.errors",
+                                                                "calibrations",
+                                                                "adopted"};
   return kNames[static_cast<std::size_t>(count)];
 }
 

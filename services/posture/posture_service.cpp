@@ -80,17 +80,26 @@ Status PostureService::Listen(std::unique_ptr<bus::Reader<T>>& reader,
 
 Status PostureService::MakeReaders() {
   using bus::SampleInfo;
-  // Who is who comes first, so that states find it.
-  Status made = Listen<roster::RosterEntry>(
-      roster_reader_, {.on_sample =
-                           [this](const roster::RosterEntry& entry, const SampleInfo&) {
-                             HandOver(entry.body_id,
-                                      std::make_shared<const roster::RosterEntry>(entry));
-                           },
-                       .on_disposed =
-                           [this](const roster::RosterEntry& entry) {
-                             HandOver(entry.body_id, PostureWorker::Gone{entry.body_id});
-                           }});
+  // What a posture service before or beside this one has in force, then who is who, then states.
+  Status made = Listen<body::BodyDefinition>(
+      definition_reader_, {.on_sample =
+                               [this](const body::BodyDefinition& definition, const SampleInfo&) {
+                                 HandOver(definition.body_id,
+                                          std::make_shared<const body::BodyDefinition>(definition));
+                               },
+                           .on_disposed = {}});
+  if (made) {
+    made = Listen<roster::RosterEntry>(
+        roster_reader_, {.on_sample =
+                             [this](const roster::RosterEntry& entry, const SampleInfo&) {
+                               HandOver(entry.body_id,
+                                        std::make_shared<const roster::RosterEntry>(entry));
+                             },
+                         .on_disposed =
+                             [this](const roster::RosterEntry& entry) {
+                               HandOver(entry.body_id, PostureWorker::Gone{entry.body_id});
+                             }});
+  }
   if (made) {
     made = Listen<roster::Command>(
         command_reader_, {.on_sample =
@@ -120,6 +129,7 @@ Status PostureService::MakeReaders() {
 
 void PostureService::Stop() {
   roster_reader_.reset();
+  definition_reader_.reset();
   command_reader_.reset();
   fix_reader_.reset();
   state_reader_.reset();

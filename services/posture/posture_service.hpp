@@ -72,6 +72,7 @@ class PostureService {
   std::unique_ptr<PostureShared> shared_;
   std::vector<std::unique_ptr<PostureWorker>> workers_;
   std::unique_ptr<bus::Reader<roster::RosterEntry>> roster_reader_;
+  std::unique_ptr<bus::Reader<body::BodyDefinition>> definition_reader_;
   std::unique_ptr<bus::Reader<roster::Command>> command_reader_;
   std::unique_ptr<bus::Reader<sensing::PositionFix>> fix_reader_;
   std::unique_ptr<bus::Reader<body::SegmentState>> state_reader_;

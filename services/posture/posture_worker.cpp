@@ -16,6 +16,15 @@ std::string ProfileOf(const body::BodyDefinition& definition) {
   return definition.name.substr(0, AlignmentStore::kMaxProfileName);
 }
 
+bool NeedsAlignment(const body::SegmentDefinition& segment) {
+  return segment.tracked && !segment.aligned;
+}
+
+bool NeedsAlignment(const body::BodyDefinition& definition) {
+  return std::any_of(definition.segments.begin(), definition.segments.end(),
+                     [](const auto& segment) { return NeedsAlignment(segment); });
+}
+
 Count CountOf(StateFate fate) {
   switch (fate) {
     case StateFate::kUsed:
@@ -124,6 +133,7 @@ void PostureWorker::Handle(const std::shared_ptr<const roster::RosterEntry>& ent
   const bool changed = body->tracker->SetRoster(*entry);
   if (changed) {
     RestoreProfile(*body);
+    AdoptPublished(*body);
   }
   if (body->tracker->TakeDefinitionChanged() || changed || back) {
     PublishDefinition(*body);
@@ -132,6 +142,7 @@ void PostureWorker::Handle(const std::shared_ptr<const roster::RosterEntry>& ent
 }
 
 void PostureWorker::Handle(const Gone& gone) {
+  published_.erase(gone.body_id);
   Body* body = Find(gone.body_id);
   if (body == nullptr || !std::exchange(body->present, false)) {
     return;
@@ -194,11 +205,7 @@ bool PostureWorker::Save(const Body& body) {
 void PostureWorker::RestoreProfile(Body& body) {
   body::BodyDefinition definition = body.tracker->definition();
   const std::string name = ProfileOf(definition);
-  const auto needs = [](const body::SegmentDefinition& segment) {
-    return segment.tracked && !segment.aligned;
-  };
-  if (std::none_of(definition.segments.begin(), definition.segments.end(), needs) ||
-      !shared_.store.HasProfile(name)) {
+  if (!NeedsAlignment(definition) || !shared_.store.HasProfile(name)) {
     return;
   }
   const body::BodyDefinition before = definition;
@@ -208,11 +215,56 @@ void PostureWorker::RestoreProfile(Body& body) {
     return;
   }
   for (std::size_t row = 0; row < definition.segments.size(); ++row) {
-    if (!needs(before.segments[row])) {
+    if (!NeedsAlignment(before.segments[row])) {
       definition.segments[row] = before.segments[row];  // what is in force is newer
     }
   }
   body.tracker->Restore(std::move(definition), shared_.clock.Now());
+}
+
+void PostureWorker::Handle(const std::shared_ptr<const body::BodyDefinition>& published) {
+  published_[published->body_id] = published;
+  Body* body = Find(published->body_id);
+  if (body != nullptr && body->present) {
+    AdoptPublished(*body);
+    if (body->tracker->TakeDefinitionChanged()) {
+      PublishDefinition(*body);
+    }
+  }
+}
+
+void PostureWorker::AdoptPublished(Body& body) {
+  body::BodyDefinition definition = body.tracker->definition();
+  const auto published = published_.find(definition.body_id);
+  // What is not newer may be our own from before an undo.
+  if (published == published_.end() || !NeedsAlignment(definition) ||
+      published->second->revision <= definition.revision) {
+    return;
+  }
+  bool adopted = false;
+  for (body::SegmentDefinition& into : definition.segments) {
+    const auto* const from = body::Find(*published->second, into.segment);
+    if (from != nullptr && NeedsAlignment(into) && from->aligned &&
+        from->sensor_uid == into.sensor_uid) {
+      body::TakeAlignment(*from, into);
+      adopted = true;
+    }
+  }
+  if (!adopted) {
+    return;
+  }
+  for (body::SegmentDefinition& into : definition.segments) {
+    if (const auto* const from = body::Find(*published->second, into.segment)) {
+      body::TakeDimensions(*from, into);
+    }
+  }
+  if (const Status valid = body::Validate(definition); !valid) {
+    shared_.on_error("published body_definition refused: " + valid.error().message);
+    return;
+  }
+  body.tracker->Redefine(std::move(definition), shared_.clock.Now());
+  shared_.counters.Add(Count::kAdopted);
+  (void)Save(body);
 }
 
 CommandOutcome PostureWorker::UseProfile(const roster::Command& command, Body& body) {

@@ -56,7 +56,8 @@ class PostureWorker {
   };
   using Item =
       std::variant<StateInput, sensing::PositionFix, std::shared_ptr<const roster::RosterEntry>,
-                   std::shared_ptr<const roster::Command>, Gone>;
+                   std::shared_ptr<const roster::Command>,
+                   std::shared_ptr<const body::BodyDefinition>, Gone>;
 
   explicit PostureWorker(const PostureShared& shared);
 
@@ -88,12 +89,17 @@ class PostureWorker {
   void Handle(const sensing::PositionFix& fix);
   void Handle(const std::shared_ptr<const roster::RosterEntry>& entry);
   void Handle(const std::shared_ptr<const roster::Command>& command);
+  /// What a posture service says of a body: another one, or this one.
+  void Handle(const std::shared_ptr<const body::BodyDefinition>& published);
   void Handle(const Gone& gone);
   Body* Find(BodyId body_id);
   Body& MakeBody(BodyId body_id);
   CommandOutcome UseProfile(const roster::Command& command, Body& body);
   /// The profile of the person who came, for sensors that are not aligned.
   void RestoreProfile(Body& body);
+  /// What another posture service has in force, for sensors that are not aligned here: a service
+  /// that is started again, or stands by, asks nobody for a calibration.
+  void AdoptPublished(Body& body);
   /// For this body, and as the profile of its person. False: not on the disk.
   bool Save(const Body& body);
   void Publish(body::Skeleton& skeleton, TickEnd end, bool live);
@@ -108,6 +114,7 @@ class PostureWorker {
   Item item_;                     // the one in work
   body::JointAngleFrame angles_;  // reused
   std::unordered_map<BodyId, Body> bodies_;
+  std::unordered_map<BodyId, std::shared_ptr<const body::BodyDefinition>> published_;  // the last
   std::optional<Time> earliest_due_;  // no body is due before; it may have become later
   bool to_flush_ = false;
   std::atomic<std::size_t> body_count_{0};

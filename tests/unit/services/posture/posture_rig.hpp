@@ -74,6 +74,7 @@ class PostureRig {
     rosters = *bus_->MakeWriter<roster::RosterEntry>();
     commands = *bus_->MakeWriter<roster::Command>();
     fixes = *bus_->MakeWriter<sensing::PositionFix>();
+    other_definitions = *bus_->MakeWriter<body::BodyDefinition>();
     service = std::make_unique<PostureService>(config, clock, *bus_, pool_);
     started = service->Start();
   }
@@ -156,6 +157,7 @@ class PostureRig {
   std::unique_ptr<bus::Writer<roster::RosterEntry>> rosters;
   std::unique_ptr<bus::Writer<roster::Command>> commands;
   std::unique_ptr<bus::Writer<sensing::PositionFix>> fixes;
+  std::unique_ptr<bus::Writer<body::BodyDefinition>> other_definitions;  // of another service
   Status started;
   std::unique_ptr<PostureService> service;  // last: it goes first
 };
