@@ -19,6 +19,11 @@ enum class CommandKind : std::uint8_t {
   kFunctionalCalibration = 5,  ///< posture: `text` "start" (walk now), "finish" or "cancel"
   kResetMounting = 6,  ///< posture: the person stands in the reference pose; `text` is a segment
   kProfile = 7,        ///< posture: `text` "save NAME" or "load NAME"
+  kCreateSession = 8,  ///< session host, where sessions are listed: `text` is the new one's name
+  kCloseSession = 9,   ///< session host, in the session, from an operator of it: everybody leaves
+  kLeaveSession =
+      10,  ///< session host, in the session: `text` is the person, "" = all of the client
+  kReleasePerson = 11,  ///< session host, in the session, from an operator: `text` is sent away
 };
 
 /// A request to a service (command topic, key client_uid).

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "common/base/ids.hpp"
 #include "common/base/time.hpp"
+#include "common/roster/roster.hpp"
 
 namespace limbcast::roster {
 
@@ -22,16 +25,24 @@ struct SessionState {
   Time created_at{};
 };
 
-/// A request to take part (command topic, key client_uid).
+/// How often a client repeats its accepted JoinRequest, which is how the session host knows that it
+/// is alive (a process that hangs repeats nothing). The host's patience is a few times as long.
+inline constexpr Duration kRenewPeriod = std::chrono::milliseconds(500);
+
+/// A request to take part (command topic, key client_uid). Repeated as it is while it is to last;
+/// until an answer comes, each repetition has a new request_id.
 struct JoinRequest {
   std::uint64_t client_uid = 0;
   std::uint64_t request_id = 0;
   std::string session;  ///< at most 64 characters
-  std::string person;   ///< at most 64 characters
+  std::string person;   ///< who wears the sensors, or who watches; at most 64 characters
   Role role = Role::kSpectator;
+  /// What a performer wears; none = as when this person was here last. At most 64.
+  std::vector<SensorAssignment> sensors;
 };
 
-/// The answer to a JoinRequest (command topic, key client_uid).
+/// The answer to a JoinRequest (command topic, key client_uid). A repeated request that changes
+/// nothing is not answered.
 struct JoinReply {
   std::uint64_t client_uid = 0;
   std::uint64_t request_id = 0;

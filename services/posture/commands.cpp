@@ -112,6 +112,10 @@ CommandOutcome BodyCommands::Execute(const roster::Command& command, Time now,
       outcome = Undo(tracker, definition);
       break;
     case roster::CommandKind::kSelectFilter:
+    case roster::CommandKind::kCreateSession:
+    case roster::CommandKind::kCloseSession:
+    case roster::CommandKind::kLeaveSession:
+    case roster::CommandKind::kReleasePerson:
     case roster::CommandKind::kProfile:  // the worker's, which has the files
       break;
   }

@@ -232,15 +232,20 @@ void Fill(body::JointAngleFrame& v, Draw& draw, std::uint32_t key, std::uint32_t
 }
 Numbers KeyAndSequence(const body::JointAngleFrame& v) { return Pair(v.body_id.value, v.sequence); }
 
+std::vector<roster::SensorAssignment> Assignments(Draw& draw) {
+  std::vector<roster::SensorAssignment> sensors(draw.Below(65));
+  for (roster::SensorAssignment& sensor : sensors) {
+    sensor = {{draw.Bits()}, draw.Segment()};
+  }
+  return sensors;
+}
+
 void Fill(roster::RosterEntry& v, Draw& draw, std::uint32_t key, std::uint32_t sequence) {
   v.body_id = {key};
   v.revision = sequence;
   v.session = draw.Text(64);
   v.person = draw.Text(64);
-  v.sensors.resize(draw.Below(65));
-  for (roster::SensorAssignment& sensor : v.sensors) {
-    sensor = {{draw.Bits()}, draw.Segment()};
-  }
+  v.sensors = Assignments(draw);
   v.coil_slot = draw.Below(100);
 }
 Numbers KeyAndSequence(const roster::RosterEntry& v) { return Pair(v.body_id.value, v.revision); }
@@ -257,7 +262,8 @@ void Fill(roster::SessionState& v, Draw& draw, std::uint32_t key, std::uint32_t 
 Numbers KeyAndSequence(const roster::SessionState& v) { return Pair(v.session_id, v.revision); }
 
 void Fill(roster::JoinRequest& v, Draw& draw, std::uint32_t key, std::uint32_t sequence) {
-  v = {key, sequence, draw.Text(64), draw.Text(64), draw.OneOf<roster::Role>(3)};
+  v = {key, sequence, draw.Text(64), draw.Text(64), draw.OneOf<roster::Role>(3), {}};
+  v.sensors = Assignments(draw);
 }
 Numbers KeyAndSequence(const roster::JoinRequest& v) { return Pair(v.client_uid, v.request_id); }
 

@@ -32,7 +32,8 @@ inline constexpr body::Joint kLastOf<body::Joint> = body::Joint::kLeftWrist;
 template <>
 inline constexpr roster::Role kLastOf<roster::Role> = roster::Role::kOperator;
 template <>
-inline constexpr roster::CommandKind kLastOf<roster::CommandKind> = roster::CommandKind::kProfile;
+inline constexpr roster::CommandKind kLastOf<roster::CommandKind> =
+    roster::CommandKind::kReleasePerson;
 
 static_assert(static_cast<std::size_t>(kLastOf<SampleVerdict>) + 1 == kSampleVerdictCount);
 static_assert(static_cast<std::size_t>(kLastOf<body::Segment>) + 1 == body::kSegmentCount);

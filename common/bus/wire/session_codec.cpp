@@ -48,6 +48,7 @@ void Fields(V& field, D& d, W& w) {
   field("session", d.session, w.session());
   field("person", d.person, w.person());
   field("role", d.role, w.role());
+  field.List("sensors", d.sensors, w.sensors(), 64);
 }
 template <typename V, Of<roster::JoinReply> D, typename W>
 void Fields(V& field, D& d, W& w) {

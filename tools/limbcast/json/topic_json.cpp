@@ -41,8 +41,10 @@ std::string_view RoleName(roster::Role role) {
 }
 
 std::string_view CommandName(roster::CommandKind kind) {
-  static constexpr std::array<std::string_view, 5> kNames = {
-      "reference_pose", "reset_heading", "set_dimensions", "select_filter", "undo"};
+  static constexpr std::array<std::string_view, 12> kNames = {
+      "reference_pose", "reset_heading",          "set_dimensions", "select_filter",
+      "undo",           "functional_calibration", "reset_mounting", "profile",
+      "create_session", "close_session",          "leave_session",  "release_person"};
   const auto index = static_cast<std::size_t>(kind);
   return index < kNames.size() ? kNames[index] : "unknown";
 }
@@ -246,15 +248,20 @@ json ToJson(const body::JointAngleFrame& value) {
           {"joints", std::move(joints)}};
 }
 
+namespace {
+
+json AssignmentToJson(const roster::SensorAssignment& sensor) {
+  return {{"sensor_uid", sensor.sensor_uid.value}, {"segment", body::ToString(sensor.segment)}};
+}
+
+}  // namespace
+
 json ToJson(const roster::RosterEntry& value) {
-  const auto assignment = [](const roster::SensorAssignment& sensor) -> json {
-    return {{"sensor_uid", sensor.sensor_uid.value}, {"segment", body::ToString(sensor.segment)}};
-  };
   return {{"body_id", value.body_id.value},
           {"revision", value.revision},
           {"session", value.session},
           {"person", value.person},
-          {"sensors", ListToJson(value.sensors, assignment)},
+          {"sensors", ListToJson(value.sensors, AssignmentToJson)},
           {"coil_slot", value.coil_slot}};
 }
 
@@ -269,11 +276,10 @@ json ToJson(const roster::SessionState& value) {
 }
 
 json ToJson(const roster::JoinRequest& value) {
-  return {{"client_uid", value.client_uid},
-          {"request_id", value.request_id},
-          {"session", value.session},
-          {"person", value.person},
-          {"role", RoleName(value.role)}};
+  return {
+      {"client_uid", value.client_uid}, {"request_id", value.request_id},
+      {"session", value.session},       {"person", value.person},
+      {"role", RoleName(value.role)},   {"sensors", ListToJson(value.sensors, AssignmentToJson)}};
 }
 
 json ToJson(const roster::JoinReply& value) {

@@ -105,13 +105,13 @@ LIMBCAST_FIELDS(roster::SessionState) {
 }
 LIMBCAST_FIELDS(roster::JoinRequest) {
   F(client_uid), F(request_id), TEXT(session, 64), TEXT(person, 64);
-  ENUM(role, roster::Role::kOperator);
+  ENUM(role, roster::Role::kOperator), LIST(sensors, 64);
 }
 LIMBCAST_FIELDS(roster::JoinReply) {
   F(client_uid), F(request_id), F(accepted), F(body_id), TEXT(partition, 64), TEXT(message, 255);
 }
 LIMBCAST_FIELDS(roster::Command) {
-  F(client_uid), F(request_id), F(body_id), ENUM(kind, roster::CommandKind::kProfile);
+  F(client_uid), F(request_id), F(body_id), ENUM(kind, roster::CommandKind::kReleasePerson);
   TEXT(text, 64), LIST(numbers, 64);
 }
 LIMBCAST_FIELDS(roster::CommandReply) {

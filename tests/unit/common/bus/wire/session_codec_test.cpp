@@ -15,15 +15,17 @@ TEST(SessionCodecTest, WhatIsTooLongIsRefusedByName) {
                     "command_reply.message has 256 characters, at most 255 are allowed");
   ExpectOutOfBounds(roster::RosterEntry{.sensors = std::vector<roster::SensorAssignment>(65)},
                     "roster.sensors has 65 elements, at most 64 are allowed");
+  ExpectOutOfBounds(roster::JoinRequest{.sensors = std::vector<roster::SensorAssignment>(65)},
+                    "join_request.sensors has 65 elements, at most 64 are allowed");
   ExpectOutOfBounds(roster::JoinRequest{.session = std::string(65, 's')},
                     "join_request.session has 65 characters, at most 64 are allowed");
 }
 
 TEST(SessionCodecTest, NumbersThatAreNoEnumeratorsAreRefused) {
   wire::Command command;
-  command.kind(8);
+  command.kind(12);
   ExpectCorrupt<roster::Command>(command,
-                                 "command.kind has 8 as its number, at most 7 are allowed");
+                                 "command.kind has 12 as its number, at most 11 are allowed");
   wire::JoinRequest request;
   request.role(3);
   ExpectCorrupt<roster::JoinRequest>(
