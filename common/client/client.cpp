@@ -5,11 +5,12 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
-#include <random>
 #include <utility>
 
 #include "common/body/default_body.hpp"
-#include "common/bus/bus_factory.hpp"
+#include "common/client/network.hpp"
+#include "common/client/requester.hpp"
+#include "common/client/session_member.hpp"
 
 namespace limbcast::client {
 namespace {
@@ -21,11 +22,6 @@ class SystemClock final : public Clock {
         std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()));
   }
 };
-
-std::uint64_t RandomUid() {
-  std::random_device device;
-  return (std::uint64_t{device()} << 32U) | device();
-}
 
 Status Validate(const ClientOptions& options) {
   if (options.history < 2 || options.history > 4096) {
@@ -48,8 +44,7 @@ class Client::Impl {
   Impl(std::unique_ptr<Clock> own_clock, const Clock* clock, const ClientOptions& options)
       : own_clock_(std::move(own_clock)),
         clock_(clock != nullptr ? *clock : *own_clock_),
-        options_(options),
-        client_uid_(RandomUid()) {}
+        options_(options) {}
 
   void Own(std::unique_ptr<bus::Bus> bus) { own_bus_ = std::move(bus); }
   Status Join(bus::Bus& bus);
@@ -67,6 +62,20 @@ class Client::Impl {
     const std::scoped_lock lock(callback_mutex_);
     on_body_ = std::move(callback);
   }
+  void OnStanding(std::function<void(const SessionStanding&)> callback) {
+    const std::scoped_lock lock(callback_mutex_);
+    on_standing_ = std::move(callback);
+  }
+  [[nodiscard]] std::optional<roster::RosterEntry> Entry(BodyId body_id) const {
+    const std::scoped_lock lock(mutex_);
+    const auto entry = roster_.find(body_id);
+    return entry == roster_.end() ? std::nullopt : std::optional(entry->second);
+  }
+  [[nodiscard]] SessionStanding Standing() const {
+    const std::scoped_lock lock(mutex_);
+    return standing_;
+  }
+  Status AskHost(roster::CommandKind kind, const std::string& text, Duration timeout);
   Result<roster::CommandReply> Send(roster::Command command, Duration timeout);
   [[nodiscard]] std::string Describe() const { return bus_->Describe(); }
 
@@ -83,42 +92,52 @@ class Client::Impl {
   void Take(const body::Skeleton& skeleton);
   void Take(const body::BodyDefinition& definition);
   void Remove(const body::BodyDefinition& key);
-  void Take(const roster::CommandReply& reply);
+  void Take(const MemberStatus& status);
+  Status JoinSession(bus::Bus& bus);
 
   const std::unique_ptr<Clock> own_clock_;
   const Clock& clock_;
   const ClientOptions options_;
-  const std::uint64_t client_uid_;
 
   std::mutex callback_mutex_;  // held during callbacks; taken before mutex_ or alone
   std::function<void(const body::Skeleton&)> on_skeleton_;
   std::function<void(const body::BodyDefinition&, bool)> on_body_;
+  std::function<void(const SessionStanding&)> on_standing_;
 
   mutable std::mutex mutex_;  // guards all below it but the endpoints; never held in a callback
   std::condition_variable changed_;
   std::map<BodyId, Person> people_;
-  std::uint64_t requests_ = 0;
-  std::map<std::uint64_t, std::optional<roster::CommandReply>> waiting_;  // by request_id
+  std::map<BodyId, roster::RosterEntry> roster_;
+  SessionStanding standing_;
 
   std::unique_ptr<bus::Bus> own_bus_;  // outlives the endpoints, which are declared after it
   bus::Bus* bus_ = nullptr;
-  std::unique_ptr<bus::Writer<roster::Command>> commands_;
-  std::unique_ptr<bus::Reader<roster::CommandReply>> replies_;
+  std::unique_ptr<Requester<roster::Command, roster::CommandReply>> commands_;
+  std::unique_ptr<bus::Reader<roster::RosterEntry>> entries_;
   std::unique_ptr<bus::Reader<body::BodyDefinition>> definitions_;
   std::unique_ptr<bus::Reader<body::Skeleton>> skeletons_;
+  std::unique_ptr<SessionMember> member_;  // null: in no session
 };
 
 Status Client::Impl::Join(bus::Bus& bus) {
   bus_ = &bus;
-  auto commands = bus.MakeWriter<roster::Command>();
+  auto commands = Requester<roster::Command, roster::CommandReply>::Make(bus, DrawClientUid());
   if (!commands) {
     return commands.error();
   }
-  auto replies = bus.MakeReader<roster::CommandReply>(
-      {.on_sample = [this](const auto& reply, const bus::SampleInfo&) { Take(reply); },
-       .on_disposed = {}});
-  if (!replies) {
-    return replies.error();
+  auto entries = bus.MakeReader<roster::RosterEntry>(
+      {.on_sample =
+           [this](const roster::RosterEntry& entry, const bus::SampleInfo&) {
+             const std::scoped_lock lock(mutex_);
+             roster_[entry.body_id] = entry;
+           },
+       .on_disposed =
+           [this](const roster::RosterEntry& key) {
+             const std::scoped_lock lock(mutex_);
+             roster_.erase(key.body_id);
+           }});
+  if (!entries) {
+    return entries.error();
   }
   auto definitions = bus.MakeReader<body::BodyDefinition>(
       {.on_sample = [this](const auto& definition, const bus::SampleInfo&) { Take(definition); },
@@ -133,10 +152,50 @@ Status Client::Impl::Join(bus::Bus& bus) {
     return skeletons.error();
   }
   commands_ = std::move(*commands);
-  replies_ = std::move(*replies);
+  entries_ = std::move(*entries);
   definitions_ = std::move(*definitions);
   skeletons_ = std::move(*skeletons);
-  return Ok();
+  return options_.session.empty() ? Ok() : JoinSession(bus);
+}
+
+Status Client::Impl::JoinSession(bus::Bus& bus) {
+  standing_.member = false;
+  auto member = SessionMember::Make(
+      bus, options_.session,
+      {{.role = options_.role, .person = options_.person, .sensors = options_.sensors}},
+      [this](std::size_t, const MemberStatus& status) { Take(status); });
+  if (!member) {
+    return member.error();
+  }
+  member_ = std::move(*member);
+  member_->Start();
+  return member_->WaitUntilJoined(options_.join_timeout);
+}
+
+void Client::Impl::Take(const MemberStatus& status) {
+  const SessionStanding standing{.member = status.state == MemberState::kMember,
+                                 .body_id = status.body_id,
+                                 .message = status.message};
+  {
+    const std::scoped_lock lock(mutex_);
+    standing_ = standing;
+  }
+  const std::scoped_lock lock(callback_mutex_);
+  if (on_standing_) {
+    on_standing_(standing);
+  }
+}
+
+Status Client::Impl::AskHost(roster::CommandKind kind, const std::string& text, Duration timeout) {
+  if (member_ == nullptr) {
+    return Error{ErrorCode::kInvalidArgument, "the client is in no session"};
+  }
+  const auto reply = member_->Ask(kind, text, timeout);
+  if (!reply) {
+    return Error{reply.error().code,
+                 "session host of \"" + options_.session + "\": " + reply.error().message};
+  }
+  return reply->accepted ? Ok() : Error{ErrorCode::kInvalidArgument, reply->message};
 }
 
 void Client::Impl::Take(const body::Skeleton& skeleton) {
@@ -185,18 +244,6 @@ void Client::Impl::Remove(const body::BodyDefinition& key) {
   }
 }
 
-void Client::Impl::Take(const roster::CommandReply& reply) {
-  if (reply.client_uid != client_uid_) {
-    return;  // somebody else's
-  }
-  const std::scoped_lock lock(mutex_);
-  const auto request = waiting_.find(reply.request_id);
-  if (request != waiting_.end() && !request->second) {
-    request->second = reply;
-    changed_.notify_all();
-  }
-}
-
 std::vector<BodyId> Client::Impl::Bodies() const {
   const std::scoped_lock lock(mutex_);
   std::vector<BodyId> bodies;
@@ -239,44 +286,27 @@ std::optional<Pose> Client::Impl::PoseAt(BodyId body_id, Time at) const {
 
 Result<roster::CommandReply> Client::Impl::Send(roster::Command command, Duration timeout) {
   const auto until = std::chrono::steady_clock::now() + timeout;
-  command.client_uid = client_uid_;
-  std::unique_lock lock(mutex_);
-  // Discovery takes a moment, and a command that nobody hears is gone: first see the person whom a
-  // service speaks for, and a listener.
-  const auto ready = [&] {
-    const auto person = people_.find(command.body_id);
-    return person != people_.end() && person->second.definition.has_value() &&
-           commands_->counters().matched > 0 && replies_->counters().matched > 0;
-  };
-  constexpr auto kLookAgain = std::chrono::milliseconds(20);  // matching wakes nobody
-  while (!ready() && std::chrono::steady_clock::now() < until) {
-    changed_.wait_until(lock, std::min(until, std::chrono::steady_clock::now() + kLookAgain));
+  {
+    // First see the person whom a service speaks for: then the service itself is found, too.
+    std::unique_lock lock(mutex_);
+    const bool known = changed_.wait_until(lock, until, [&] {
+      const auto person = people_.find(command.body_id);
+      return person != people_.end() && person->second.definition.has_value();
+    });
+    if (!known) {
+      return Error{ErrorCode::kNotFound,
+                   "no body " + std::to_string(command.body_id.value) + " is published"};
+    }
   }
-  if (!ready()) {
-    const bool known = people_.contains(command.body_id);
-    return known ? Error{ErrorCode::kUnavailable,
-                         "no service listens to commands on " + bus_->Describe()}
-                 : Error{ErrorCode::kNotFound,
-                         "no body " + std::to_string(command.body_id.value) + " is published"};
+  auto reply = commands_->Ask(std::move(command), until);
+  if (!reply && reply.error().code == ErrorCode::kUnavailable) {
+    return Error{ErrorCode::kUnavailable, "no service listens to commands on " + bus_->Describe()};
   }
-  command.request_id = ++requests_;
-  const auto request = waiting_.try_emplace(command.request_id).first;
-  lock.unlock();
-  const Status written = commands_->Write(command);
-  commands_->Flush();
-  lock.lock();
-  if (!written) {
-    waiting_.erase(request);
-    return written.error();
-  }
-  const bool answered =
-      changed_.wait_until(lock, until, [&] { return request->second.has_value(); });
-  const auto node = waiting_.extract(request);
-  if (!answered) {
+  if (!reply && reply.error().code == ErrorCode::kTimeout) {
     return Error{ErrorCode::kTimeout,
                  "no answer to the command within " + std::to_string(ToSeconds(timeout)) + " s"};
   }
-  return *node.mapped();
+  return reply;
 }
 
 Client::Client(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -286,26 +316,11 @@ Result<std::unique_ptr<Client>> Client::Connect(const ClientOptions& options) {
   if (const Status valid = Validate(options); !valid) {
     return valid.error();
   }
-  bus::BusConfig config;
-  const auto vendor = bus::ParseVendor(options.dds);
-  if (!vendor) {
-    return vendor.error();
-  }
-  config.vendor = *vendor;
-  config.domain_id = options.domain_id;
-  config.partition = options.partition;
-  config.participant_name = options.name;
-  if (const Status network = bus::ParseNetwork(options.network, config); !network) {
-    return network.error();
-  }
-  if (const Status valid = bus::Validate(config); !valid) {
-    return valid.error();
-  }
-  auto impl = std::make_unique<Impl>(std::make_unique<SystemClock>(), nullptr, options);
-  auto bus = bus::Open(config);
+  auto bus = OpenNetwork(options);
   if (!bus) {
     return bus.error();
   }
+  auto impl = std::make_unique<Impl>(std::make_unique<SystemClock>(), nullptr, options);
   bus::Bus& joined = **bus;
   impl->Own(std::move(*bus));
   if (const Status status = impl->Join(joined); !status) {
@@ -330,6 +345,19 @@ Time Client::Now() const { return impl_->clock().Now(); }
 std::vector<BodyId> Client::Bodies() const { return impl_->Bodies(); }
 std::optional<body::BodyDefinition> Client::Definition(BodyId body_id) const {
   return impl_->Definition(body_id);
+}
+std::optional<roster::RosterEntry> Client::Entry(BodyId body_id) const {
+  return impl_->Entry(body_id);
+}
+SessionStanding Client::Standing() const { return impl_->Standing(); }
+void Client::OnStanding(std::function<void(const SessionStanding&)> callback) {
+  impl_->OnStanding(std::move(callback));
+}
+Status Client::ReleasePerson(const std::string& person, Duration timeout) {
+  return impl_->AskHost(roster::CommandKind::kReleasePerson, person, timeout);
+}
+Status Client::CloseSession(Duration timeout) {
+  return impl_->AskHost(roster::CommandKind::kCloseSession, "", timeout);
 }
 std::optional<body::Skeleton> Client::Latest(BodyId body_id) const {
   return impl_->Latest(body_id);

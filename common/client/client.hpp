@@ -11,39 +11,38 @@
 #include "common/base/result.hpp"
 #include "common/body/body_definition.hpp"
 #include "common/body/skeleton.hpp"
+#include "common/client/client_options.hpp"
 #include "common/client/skeleton_history.hpp"
 #include "common/roster/command.hpp"
-
-namespace limbcast::bus {
-class Bus;
-}
+#include "common/roster/roster.hpp"
 
 namespace limbcast::client {
 
-/// Which network to join, and how much to remember.
-struct ClientOptions {
-  std::string dds = "cyclone";       ///< "cyclone" | "fast" | "inproc"; both DDS hear each other
-  std::uint32_t domain_id = 42;      ///< range: [0, 101]
-  std::string partition{};           ///< the session; empty = the default one
-  std::string network = "loopback";  ///< "loopback" | "lan" | interface names, comma-separated
-  std::string name = "limbcast-client";  ///< in tools and logs; at most 64 characters
-  std::size_t history = 64;              ///< skeletons kept for each body. Range: [2, 4096]
-  Duration max_prediction = std::chrono::milliseconds(50);  ///< range: [0, 1 s]
+/// Where a client stands with its session.
+struct SessionStanding {
+  bool member = true;
+  BodyId body_id;       ///< of a performer, from the first acceptance on
+  std::string message;  ///< why not a member
+  bool operator==(const SessionStanding&) const = default;
 };
 
 /// A window onto all people of a session, for programs that draw or use them. Bodies appear and
-/// vanish by themselves, services may restart; nothing has to be called for that. Thread-safe.
+/// vanish by themselves, services may restart; nothing has to be called for that. With
+/// `options.session` it takes part in a session: it is asked for until the host answers, kept
+/// alive, asked for again when the host was restarted, and left by the destructor. Thread-safe.
 ///
 ///   auto client = Client::Connect({});
 ///   for (BodyId body : (*client)->Bodies())
 ///     if (auto pose = (*client)->PoseAt(body, display_time)) Draw(*pose);
 class Client {
  public:
-  /// Fails with kInvalidArgument (an option) or kUnavailable (the network refuses).
+  /// Fails with kInvalidArgument (an option), kUnavailable (the network or the session host
+  /// refuses, with its reason) or kTimeout (no session host answers).
   [[nodiscard]] static Result<std::unique_ptr<Client>> Connect(const ClientOptions& options = {});
 
   /// The same on a bus that is there already (tests, all-in-one programs). `bus` and `clock`
-  /// outlive the client. Takes history and max_prediction from `options`.
+  /// outlive the client. In a session, `bus` is in its partition. Takes from `options` all that is
+  /// not about the network.
   [[nodiscard]] static Result<std::unique_ptr<Client>> Attach(bus::Bus& bus, const Clock& clock,
                                                               const ClientOptions& options = {});
 
@@ -59,6 +58,15 @@ class Client {
 
   /// Names, dimensions and sensors of a person; nothing for an unknown one.
   [[nodiscard]] std::optional<body::BodyDefinition> Definition(BodyId body_id) const;
+
+  /// Name, sensors and coil slot of a person as the session host (or the gateway) has them.
+  [[nodiscard]] std::optional<roster::RosterEntry> Entry(BodyId body_id) const;
+
+  /// Where we stand in the session of the options; without one, kMember of none.
+  [[nodiscard]] SessionStanding Standing() const;
+
+  /// Called when Standing changes. As OnSkeleton.
+  void OnStanding(std::function<void(const SessionStanding& standing)> callback);
 
   /// The newest skeleton; nothing before the first.
   [[nodiscard]] std::optional<body::Skeleton> Latest(BodyId body_id) const;
@@ -82,6 +90,12 @@ class Client {
                                                   const std::string& text = "",
                                                   const std::vector<double>& numbers = {},
                                                   Duration timeout = std::chrono::seconds(2));
+
+  /// For operators: sends a person away, or ends the session for everybody. Fails with
+  /// kInvalidArgument (the host refuses, with its reason), kUnavailable or kTimeout.
+  [[nodiscard]] Status ReleasePerson(const std::string& person,
+                                     Duration timeout = std::chrono::seconds(2));
+  [[nodiscard]] Status CloseSession(Duration timeout = std::chrono::seconds(2));
 
   /// One line for a log: library, domain, partition, interfaces.
   [[nodiscard]] std::string Describe() const;

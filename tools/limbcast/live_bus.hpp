@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "common/base/result.hpp"
 #include "common/bus/bus_factory.hpp"
@@ -12,5 +13,9 @@ namespace limbcast::tool {
 /// be a service's and are passed over. A command makes its StopSignal first.
 [[nodiscard]] Result<std::unique_ptr<bus::Bus>> OpenLiveBus(
     const service::ServiceCommandLine& line);
+
+/// The same in another partition than these name: a session.
+[[nodiscard]] Result<std::unique_ptr<bus::Bus>> OpenLiveBus(const service::ServiceCommandLine& line,
+                                                            const std::string& partition);
 
 }  // namespace limbcast::tool

@@ -10,6 +10,7 @@
 #include "tools/limbcast/evaluate_command.hpp"
 #include "tools/limbcast/export_command.hpp"
 #include "tools/limbcast/run_command.hpp"
+#include "tools/limbcast/session_command.hpp"
 #include "tools/limbcast/smooth_command.hpp"
 #include "tools/limbcast/sub_command.hpp"
 #include "tools/limbcast/top_command.hpp"
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
       tool::AddEchoCommand(line),      tool::AddEvaluateCommand(line), tool::AddSmoothCommand(line),
       tool::AddCalibrateCommand(line), tool::AddCoilCommand(line),     tool::AddExportCommand(line),
       tool::AddBenchCommand(line),
+      tool::AddSessionCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;

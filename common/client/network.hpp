@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+
+#include "common/base/result.hpp"
+#include "common/bus/bus.hpp"
+#include "common/client/client_options.hpp"
+
+namespace limbcast::client {
+
+/// Joins the network of `options`, in the partition of its session when it has one. Fails with
+/// kInvalidArgument (an option) or kUnavailable (the network refuses).
+[[nodiscard]] Result<std::unique_ptr<bus::Bus>> OpenNetwork(const ClientOptions& options);
+
+}  // namespace limbcast::client

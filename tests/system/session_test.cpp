@@ -1,0 +1,117 @@
+// A session host as a process, its clients over the network, and what becomes of them when it is
+// killed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <string>
+
+#include "common/client/client.hpp"
+#include "common/client/session_directory.hpp"
+#include "tests/system/program.hpp"
+
+namespace limbcast {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace test_support;
+using ::testing::HasSubstr;
+
+class SessionSystemTest : public ::testing::TestWithParam<const char*> {
+ protected:
+  process::ChildProcess StartHost() {
+    auto host = process::ChildProcess::Start(
+        {.arguments = {Program("limbcast-session"), "--dds", GetParam(), "--domain", domain_,
+                       "--set", "session.state_dir=" + (folder_ / "state").string()}});
+    EXPECT_TRUE(host.ok());
+    return std::move(*host);
+  }
+  std::vector<std::string> Limbcast(std::vector<std::string> words) const {
+    std::vector<std::string> arguments = {Program("limbcast"), "session"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    for (const std::string& more :
+         {std::string("--dds"), std::string(GetParam()), std::string("--domain"), domain_}) {
+      arguments.push_back(more);
+    }
+    return arguments;
+  }
+  Outcome Run(const std::vector<std::string>& words) const {
+    return RunToEnd(Limbcast(words), 20s);
+  }
+  client::ClientOptions As(roster::Role role, const std::string& person, std::uint64_t uid) const {
+    client::ClientOptions options;
+    options.dds = GetParam();
+    options.domain_id = static_cast<std::uint32_t>(std::stoul(domain_));
+    options.session = "stage";
+    options.role = role;
+    options.person = person;
+    options.join_timeout = 20s;
+    if (role == roster::Role::kPerformer) {
+      options.sensors = {{.sensor_uid = {uid}, .segment = body::Segment::kHead}};
+    }
+    return options;
+  }
+
+  const std::string domain_ = std::to_string(OwnDomain());
+  const TemporaryFolder folder_;
+};
+
+TEST_P(SessionSystemTest, AKilledHostReturnsAndNothingHasChanged) {
+  auto host = StartHost();
+  const Outcome created = Run({"create", "stage"});
+  ASSERT_EQ(created.status, 0) << Describe(created) << host.Errors();
+  const Outcome again = Run({"create", "stage"});
+  EXPECT_EQ(again.status, 2) << Describe(again);
+  EXPECT_THAT(again.errors, HasSubstr("already"));
+
+  const auto ada = client::Client::Connect(As(roster::Role::kPerformer, "Ada", 11));
+  ASSERT_TRUE(ada.ok()) << ada.error().message << host.Errors();
+  const auto guest = client::Client::Connect(As(roster::Role::kSpectator, "guest", 0));
+  ASSERT_TRUE(guest.ok()) << guest.error().message;
+  ASSERT_TRUE(Eventually(10s, [&] { return (*guest)->Entry({1}).has_value(); }));
+  EXPECT_EQ((*guest)->Entry({1})->person, "Ada");
+  const auto before = (*guest)->Entry({1});
+
+  host.Signal(SIGKILL);
+  (void)host.Stop(5s);
+  host = StartHost();
+  const auto bob = client::Client::Connect(As(roster::Role::kPerformer, "Bob", 12));
+  ASSERT_TRUE(bob.ok()) << bob.error().message << host.Errors();
+  EXPECT_EQ((*bob)->Standing().body_id.value, 2U);
+  ASSERT_TRUE(Eventually(10s, [&] { return (*bob)->Entry({1}).has_value(); }));
+  EXPECT_EQ((*bob)->Entry({1}), before);
+  EXPECT_EQ((*guest)->Entry({1}), before);
+  EXPECT_TRUE((*ada)->Standing().member);
+
+  const Outcome list = Run({"list"});
+  EXPECT_EQ(list.status, 0) << Describe(list);
+  EXPECT_THAT(list.output, HasSubstr("stage"));
+  const Outcome sent_away = Run({"leave", "stage", "Bob"});
+  EXPECT_EQ(sent_away.status, 0) << Describe(sent_away);
+  const Outcome closed = Run({"close", "stage"});
+  EXPECT_EQ(closed.status, 0) << Describe(closed);
+  EXPECT_TRUE(Eventually(10s, [&] { return !(*ada)->Standing().member; }));
+  EXPECT_TRUE(Eventually(10s, [&] { return !(*guest)->Entry({1}); }));
+  const process::ExitState ended = host.Stop(8s);
+  EXPECT_TRUE(ended.clean()) << ended.status << ' ' << ended.signal << host.Errors();
+}
+
+TEST_P(SessionSystemTest, WithoutAHostEveryCommandSaysSoInTime) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"list"},
+                                                {"create", "stage"},
+                                                {"join", "stage"},
+                                                {"close", "stage"}}) {
+    std::vector<std::string> timed = words;
+    timed.insert(timed.end(), {"--timeout", "0.5"});
+    const Outcome outcome = Run(timed);
+    EXPECT_EQ(outcome.status, 1) << Describe(outcome);
+    EXPECT_THAT(outcome.errors, HasSubstr("no session host"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Dds, SessionSystemTest, ::testing::Values("cyclone", "fast"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace limbcast
