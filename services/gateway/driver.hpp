@@ -8,8 +8,10 @@
 #include "common/base/time.hpp"
 #include "common/body/segment_truth.hpp"
 #include "common/roster/roster.hpp"
+#include "common/sensing/coil_burst.hpp"
 #include "common/sensing/fused_orientation.hpp"
 #include "common/sensing/marg_sample.hpp"
+#include "common/sensing/position_samples.hpp"
 #include "common/sensing/sensor_info.hpp"
 
 namespace limbcast::gateway {
@@ -51,6 +53,11 @@ struct Batch {
   /// not there is zero and flagged missing; what is not finite goes through as it is.
   std::vector<sensing::MargSample> marg;
   std::vector<sensing::FusedOrientation> orientation;
+  /// Of cameras; left to the gateway: published_at. They go out before the samples, so that a
+  /// filter that reads on meets a marker no later than the reading of its instant.
+  std::vector<sensing::MarkerPosition> markers;
+  /// Coil pulses that were completed by this tick's readings; left to the gateway: published_at.
+  std::vector<sensing::CoilBurst> coil_bursts;
   std::vector<body::SegmentTruth> truth;
   /// Samples that the device or recording lost before this tick (e.g. gaps in a packet counter).
   std::uint64_t device_lost = 0;
@@ -59,6 +66,8 @@ struct Batch {
     tick_at = Time{};
     marg.clear();
     orientation.clear();
+    markers.clear();
+    coil_bursts.clear();
     truth.clear();
     device_lost = 0;
   }

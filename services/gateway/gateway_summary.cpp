@@ -19,6 +19,8 @@ std::string ToJson(const GatewaySummary& summary) {
   json["samples_published"] = summary.published.marg + summary.published.orientation;
   json["marg_published"] = summary.published.marg;
   json["orientation_published"] = summary.published.orientation;
+  json["markers_published"] = summary.published.markers;
+  json["coil_bursts_published"] = summary.published.coil_bursts;
   json["truth_published"] = summary.published.truth;
   json["samples_saturated"] = summary.published.saturated;
   json["samples_mag_missing"] = summary.published.mag_missing;
@@ -62,6 +64,8 @@ void AddValues(const GatewaySummary& summary, ServiceHealth& health) {
   add("samples.published", summary.published.marg + summary.published.orientation);
   add("samples.marg", summary.published.marg);
   add("samples.orientation", summary.published.orientation);
+  add("samples.markers", summary.published.markers);
+  add("samples.coil_bursts", summary.published.coil_bursts);
   add("samples.truth", summary.published.truth);
   add("samples.saturated", summary.published.saturated);
   add("samples.mag_missing", summary.published.mag_missing);

@@ -71,6 +71,8 @@ Result<std::unique_ptr<SamplePublisher>> SamplePublisher::Make(const GatewayConf
   Status made = MakeWriter(bus, publisher->marg_writer_);
   made = made ? MakeWriter(bus, publisher->frame_writer_) : made;
   made = made ? MakeWriter(bus, publisher->orientation_writer_) : made;
+  made = made ? MakeWriter(bus, publisher->marker_writer_) : made;
+  made = made ? MakeWriter(bus, publisher->burst_writer_) : made;
   made = made ? MakeWriter(bus, publisher->truth_writer_) : made;
   made = made ? MakeWriter(bus, publisher->info_writer_) : made;
   made = made ? MakeWriter(bus, publisher->roster_writer_) : made;
@@ -149,6 +151,8 @@ void SamplePublisher::Stamp(Batch& batch) {
   }
   counters_.marg += batch.marg.size();
   counters_.orientation += batch.orientation.size();
+  counters_.markers += batch.markers.size();
+  counters_.coil_bursts += batch.coil_bursts.size();
   counters_.truth += publish_truth_ ? batch.truth.size() : 0U;
 }
 
@@ -158,6 +162,18 @@ void SamplePublisher::Send(bus::Writer<T>& writer, const T& value) {
     ++counters_.write_errors;
     last_error_ = written.error().message;
   }
+}
+
+template <typename T>
+void SamplePublisher::SendAll(bus::Writer<T>& writer, std::vector<T>& values) {
+  if (values.empty()) {
+    return;
+  }
+  for (T& value : values) {
+    value.published_at = clock_.Now();
+    Send(writer, value);
+  }
+  writer.Flush();
 }
 
 void SamplePublisher::WriteMarg(std::vector<sensing::MargSample>& samples,
@@ -209,16 +225,12 @@ void SamplePublisher::WriteFrames(std::vector<sensing::MargSample>& samples,
 }
 
 void SamplePublisher::Write(Batch& batch) {
+  SendAll(*marker_writer_, batch.markers);
   if (!batch.marg.empty()) {
     WriteMarg(batch.marg, marg_streams_);
   }
-  if (!batch.orientation.empty()) {
-    for (sensing::FusedOrientation& sample : batch.orientation) {
-      sample.published_at = clock_.Now();
-      Send(*orientation_writer_, sample);
-    }
-    orientation_writer_->Flush();
-  }
+  SendAll(*orientation_writer_, batch.orientation);
+  SendAll(*burst_writer_, batch.coil_bursts);
   if (publish_truth_ && !batch.truth.empty()) {
     for (const body::SegmentTruth& truth : batch.truth) {
       Send(*truth_writer_, truth);

@@ -30,6 +30,8 @@ struct SensorStream {
 struct PublishCounters {
   std::uint64_t marg = 0;
   std::uint64_t orientation = 0;
+  std::uint64_t markers = 0;
+  std::uint64_t coil_bursts = 0;
   std::uint64_t truth = 0;
   std::uint64_t saturated = 0;    ///< samples with at least one saturated channel
   std::uint64_t mag_missing = 0;  ///< samples without a magnetometer reading
@@ -60,8 +62,8 @@ class SamplePublisher {
     return orientation_streams_;
   }
 
-  /// Writes a stamped batch back to back: samples, then truth, then one flush. published_at is set
-  /// to the moment of each write.
+  /// Writes a stamped batch back to back: markers, samples, coil bursts, truth, each with one
+  /// flush. published_at is set to the moment of each write.
   void Write(Batch& batch);
 
   /// Writes a link probe for every sensor that somebody wears.
@@ -88,6 +90,8 @@ class SamplePublisher {
   void SendFrame(sensing::MargFrame& frame);
   template <typename T>
   void Send(bus::Writer<T>& writer, const T& value);
+  template <typename T>
+  void SendAll(bus::Writer<T>& writer, std::vector<T>& values);
 
   const bool marg_frame_;
   const bool publish_roster_;
@@ -96,6 +100,8 @@ class SamplePublisher {
   std::unique_ptr<bus::Writer<sensing::MargSample>> marg_writer_;
   std::unique_ptr<bus::Writer<sensing::MargFrame>> frame_writer_;
   std::unique_ptr<bus::Writer<sensing::FusedOrientation>> orientation_writer_;
+  std::unique_ptr<bus::Writer<sensing::MarkerPosition>> marker_writer_;
+  std::unique_ptr<bus::Writer<sensing::CoilBurst>> burst_writer_;
   std::unique_ptr<bus::Writer<body::SegmentTruth>> truth_writer_;
   std::unique_ptr<bus::Writer<sensing::SensorInfo>> info_writer_;
   std::unique_ptr<bus::Writer<roster::RosterEntry>> roster_writer_;

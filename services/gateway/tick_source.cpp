@@ -82,6 +82,18 @@ void TickSource::MapToHost(Time now) {
   for (sensing::FusedOrientation& sample : batch_.orientation) {
     sample.measured_at = stream_clock_.ToStream(sample.measured_at);
   }
+  for (sensing::MarkerPosition& marker : batch_.markers) {
+    marker.measured_at = stream_clock_.ToStream(marker.measured_at);
+  }
+  for (sensing::CoilBurst& burst : batch_.coil_bursts) {
+    burst.measured_at = stream_clock_.ToStream(burst.measured_at);
+    for (sensing::CoilPulse& pulse : burst.pulses) {
+      if (pulse.off_at != Time{}) {  // else there has been none
+        pulse.on_at = stream_clock_.ToStream(pulse.on_at);
+        pulse.off_at = stream_clock_.ToStream(pulse.off_at);
+      }
+    }
+  }
   for (body::SegmentTruth& truth : batch_.truth) {
     truth.measured_at = stream_clock_.ToStream(truth.measured_at);
   }
@@ -97,6 +109,9 @@ Batch& TickSource::Take(Time now) {
   }
   for (body::SegmentTruth& truth : batch_.truth) {
     truth.body_id = Renumbered(truth.body_id);
+  }
+  for (sensing::MarkerPosition& marker : batch_.markers) {
+    marker.body_id = Renumbered(marker.body_id);
   }
   return batch_;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,6 +40,7 @@ class FakeDriver final : public Driver {
   std::deque<Result<DriverStep>> steps;
   bool orientation_only = false;
   bool with_truth = false;
+  std::function<void(Batch&)> extra;  ///< adds to every tick
 
   [[nodiscard]] const DriverDescription& Describe() const override { return description_; }
 
@@ -74,6 +76,9 @@ class FakeDriver final : public Driver {
       truth.body_id = BodyId{1};
       truth.measured_at = batch.tick_at;
       batch.truth.push_back(truth);
+    }
+    if (extra) {
+      extra(batch);
     }
     ++next_;
     return DriverStep::kData;

@@ -36,6 +36,16 @@ class FakePipeline {
                Answer(sample.sensor_uid, sample.sequence, sample.measured_at);
              },
          .on_disposed = {}}));
+    marker_reader_ = Take(bus.MakeReader<sensing::MarkerPosition>(
+        {.on_sample =
+             [this](const auto& marker, const auto&) {
+               markers.push_back(marker);
+               samples_before_marker.push_back(samples.size());
+             },
+         .on_disposed = {}}));
+    burst_reader_ = Take(bus.MakeReader<sensing::CoilBurst>(
+        {.on_sample = [this](const auto& burst, const auto&) { bursts.push_back(burst); },
+         .on_disposed = {}}));
     truth_reader_ = Take(bus.MakeReader<body::SegmentTruth>(
         {.on_sample = [this](const auto& truth, const auto&) { truths.push_back(truth); },
          .on_disposed = {}}));
@@ -56,6 +66,9 @@ class FakePipeline {
   std::vector<sensing::MargSample> samples;  ///< without probes
   std::vector<sensing::MargSample> probes;
   std::vector<sensing::FusedOrientation> orientations;
+  std::vector<sensing::MarkerPosition> markers;
+  std::vector<std::size_t> samples_before_marker;
+  std::vector<sensing::CoilBurst> bursts;
   std::vector<body::SegmentTruth> truths;
   std::vector<sensing::SensorInfo> infos;
   std::vector<roster::RosterEntry> entries;
@@ -109,6 +122,8 @@ class FakePipeline {
   std::unique_ptr<bus::Reader<sensing::MargSample>> marg_reader_;
   std::unique_ptr<bus::Reader<sensing::MargFrame>> frame_reader_;
   std::unique_ptr<bus::Reader<sensing::FusedOrientation>> orientation_reader_;
+  std::unique_ptr<bus::Reader<sensing::MarkerPosition>> marker_reader_;
+  std::unique_ptr<bus::Reader<sensing::CoilBurst>> burst_reader_;
   std::unique_ptr<bus::Reader<body::SegmentTruth>> truth_reader_;
   std::unique_ptr<bus::Reader<sensing::SensorInfo>> info_reader_;
   std::unique_ptr<bus::Reader<roster::RosterEntry>> roster_reader_;

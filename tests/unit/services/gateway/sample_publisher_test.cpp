@@ -157,6 +157,26 @@ TEST_F(SamplePublisherTest, ProbesAskForEveryWornSensorAndClaimNothing) {
   EXPECT_EQ(pipeline_.probes[0].measured_at, clock_.Now());
 }
 
+TEST_F(SamplePublisherTest, MarkersGoBeforeTheSamplesAndCoilBurstsAfterThem) {
+  const auto publisher = Make(driver_.Describe());
+  Batch batch;
+  ASSERT_TRUE(driver_.Next(batch).ok());
+  batch.markers.resize(2);
+  batch.markers[1].marker = 7;
+  batch.coil_bursts.resize(1);
+  batch.coil_bursts[0].sensor_uid = SensorUid{2};
+  Publish(*publisher, batch);
+  ASSERT_EQ(pipeline_.markers.size(), 2U);
+  EXPECT_EQ(pipeline_.samples_before_marker, (std::vector<std::size_t>{0, 0}));
+  EXPECT_EQ(pipeline_.markers[1].marker, 7U);
+  EXPECT_EQ(pipeline_.markers[1].published_at, clock_.Now());
+  ASSERT_EQ(pipeline_.bursts.size(), 1U);
+  EXPECT_EQ(pipeline_.bursts[0].sensor_uid, SensorUid{2});
+  EXPECT_EQ(pipeline_.bursts[0].published_at, clock_.Now());
+  EXPECT_EQ(publisher->counters().markers, 2U);
+  EXPECT_EQ(publisher->counters().coil_bursts, 1U);
+}
+
 TEST_F(SamplePublisherTest, TruthIsLeftOutIfToldSo) {
   driver_.with_truth = true;
   config_.publish_truth = false;

@@ -34,6 +34,29 @@ TEST(TickSourceTest, TimesAndBodiesAreThoseOfTheNetwork) {
   EXPECT_EQ(batch.truth[0].body_id, BodyId{9});
 }
 
+TEST(TickSourceTest, TimesOfMarkersAndCoilPulsesMoveWithTheTick) {
+  auto driver = std::make_unique<test::FakeDriver>(1, 1);
+  driver->extra = [](Batch& batch) {
+    batch.markers.push_back({.body_id = BodyId{1}, .measured_at = batch.tick_at - 4ms});
+    sensing::CoilBurst burst;
+    burst.measured_at = batch.tick_at - 20ms;
+    burst.pulses[1].on_at = batch.tick_at - 30ms;
+    burst.pulses[1].off_at = batch.tick_at - 10ms;
+    batch.coil_bursts.push_back(burst);
+  };
+  GatewayConfig config;
+  config.body_id = 9;
+  TickSource source(std::move(driver), config);
+  ASSERT_EQ(*source.Load(kNow), DriverStep::kData);
+  const Batch& batch = source.Take(kNow);
+  EXPECT_EQ(batch.markers[0].measured_at, kNow - 4ms);
+  EXPECT_EQ(batch.markers[0].body_id, BodyId{9});
+  EXPECT_EQ(batch.coil_bursts[0].measured_at, kNow - 20ms);
+  EXPECT_EQ(batch.coil_bursts[0].pulses[1].on_at, kNow - 30ms);
+  EXPECT_EQ(batch.coil_bursts[0].pulses[1].off_at, kNow - 10ms);
+  EXPECT_EQ(batch.coil_bursts[0].pulses[0].off_at, Time{});  // that coil has not pulsed yet
+}
+
 TEST(TickSourceTest, LoopsAreJoinedWithOnePeriodBetween) {
   TickSource source(std::make_unique<test::FakeDriver>(1, 3), Looping());
   for (int tick = 0; tick < 7; ++tick) {
