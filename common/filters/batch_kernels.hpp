@@ -16,9 +16,11 @@ struct BatchKernels {
   int width_double = 1;              ///< lanes of a block of doubles
   int width_float = 1;               ///< lanes of a block of floats
 
-  /// GaussNewtonInput<double> and GaussNewtonState<double>; form kReduced3x3.
-  void (*gauss_newton)(const GaussNewtonConfig& config, const std::byte* inputs,
-                       std::byte* states) = nullptr;
+  /// GaussNewtonInput and GaussNewtonState in double and in single precision; form kReduced3x3.
+  void (*gauss_newton_double)(const GaussNewtonConfig& config, const std::byte* inputs,
+                              std::byte* states) = nullptr;
+  void (*gauss_newton_float)(const GaussNewtonConfig& config, const std::byte* inputs,
+                             std::byte* states) = nullptr;
 
   /// BoundedMotionInput and BoundedMotionState in double and in single precision.
   void (*bounded_motion_double)(const BoundedMotionConfig& config, const std::byte* inputs,

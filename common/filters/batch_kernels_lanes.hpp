@@ -47,7 +47,8 @@ constexpr BatchKernels MakeBatchKernels(std::string_view instruction_set) {
   return {.instruction_set = instruction_set,
           .width_double = Double::kLanes,
           .width_float = Float::kLanes,
-          .gauss_newton = &GaussNewtonLanes<Double>,
+          .gauss_newton_double = &GaussNewtonLanes<Double>,
+          .gauss_newton_float = &GaussNewtonLanes<Float>,
           .bounded_motion_double = &BoundedMotionLanes<Double>,
           .bounded_motion_float = &BoundedMotionLanes<Float>};
 }

@@ -8,7 +8,6 @@ namespace {
 
 using C = BoundedMotionConfig;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::array<std::string_view, 2> kPrecisionNames = {"double", "float"};
 constexpr std::array kFields = {
     Choice<&C::precision>("precision", kPrecisionNames),
     Number<&C::slow_rate_hz>("slow_rate_hz", 5.0, 100.0),

@@ -1,21 +1,19 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "common/base/result.hpp"
 #include "common/filters/filter_settings.hpp"
+#include "common/filters/precision.hpp"
 
 namespace limbcast::filters {
-
-enum class BoundedMotionPrecision : std::uint8_t { kDouble = 0, kFloat = 1 };
 
 /// Tuning of the bounded-motion filter (BMF). The defaults suit a hand- or body-worn MARG sensor at
 /// 25–1000 Hz with a factory-calibrated gyro. Fields are in units of the reference field where the
 /// name says `_ref`.
 struct BoundedMotionConfig {
   /// Arithmetic of the core; single precision gives the same mean error and is faster.
-  BoundedMotionPrecision precision = BoundedMotionPrecision::kDouble;
+  Precision precision = Precision::kDouble;
 
   /// Rate of the covariance and of all corrections; the attitude is integrated at the sample rate.
   /// Range: [5, 100].

@@ -281,7 +281,7 @@ template class BoundedMotionFilter<float>;
 
 std::unique_ptr<OrientationFilter> MakeBoundedMotionFilter(const BoundedMotionConfig& config,
                                                            std::string_view name) {
-  if (config.precision == BoundedMotionPrecision::kFloat) {
+  if (config.precision == Precision::kFloat) {
     return std::make_unique<BoundedMotionFilter<float>>(config, name);
   }
   return std::make_unique<BoundedMotionFilter<double>>(config, name);

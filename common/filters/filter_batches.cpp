@@ -6,6 +6,16 @@
 #include "common/filters/gauss_newton_orientation.hpp"
 
 namespace limbcast::filters {
+namespace {
+
+// The 4×4 form of the Gauss–Newton step is there for one sensor only.
+template <typename Scalar>
+bool HasNoLanes(const OrientationFilter& filter) {
+  const auto* const tqt = dynamic_cast<const GaussNewtonOrientation<Scalar>*>(&filter);
+  return tqt != nullptr && tqt->config().form != GaussNewtonForm::kReduced3x3;
+}
+
+}  // namespace
 
 template <typename Filter>
 std::unique_ptr<OrientationFilter> FilterBatches::SeatAs(
@@ -35,12 +45,15 @@ std::unique_ptr<OrientationFilter> FilterBatches::SeatAs(
 std::unique_ptr<OrientationFilter> FilterBatches::Seat(std::unique_ptr<OrientationFilter> filter) {
   // Batches that nobody sits in any more go.
   std::erase_if(batches_, [](const auto& batch) { return batch->seats_taken() == 0; });
-  const auto* const tqt = dynamic_cast<const GaussNewtonOrientation*>(filter.get());
-  if (tqt != nullptr && tqt->config().form != GaussNewtonForm::kReduced3x3) {
+  if (HasNoLanes<double>(*filter) || HasNoLanes<float>(*filter)) {
     return filter;
   }
-  auto seated =
-      SeatAs<GaussNewtonOrientation>(filter, kernels_.gauss_newton, kernels_.width_double);
+  auto seated = SeatAs<GaussNewtonOrientation<double>>(filter, kernels_.gauss_newton_double,
+                                                       kernels_.width_double);
+  if (seated == nullptr) {
+    seated = SeatAs<GaussNewtonOrientation<float>>(filter, kernels_.gauss_newton_float,
+                                                   kernels_.width_float);
+  }
   if (seated == nullptr) {
     seated = SeatAs<BoundedMotionFilter<double>>(filter, kernels_.bounded_motion_double,
                                                  kernels_.width_double);

@@ -40,7 +40,11 @@ std::span<const std::string_view> FilterNames() { return kNames; }
 Result<std::unique_ptr<OrientationFilter>> MakeFilter(std::string_view name,
                                                       std::span<const Setting> settings) {
   if (name == "tqt") {
-    return Make<GaussNewtonOrientation>(name, GaussNewtonFields(), settings);
+    auto config = ConfigFromSettings<GaussNewtonConfig>(name, GaussNewtonFields(), settings, {});
+    if (!config) {
+      return config.error();
+    }
+    return MakeGaussNewtonOrientation(*config);
   }
   if (name == "ckf" || name == "ckf-plain") {
     ComplementaryKalmanConfig defaults;

@@ -7,9 +7,10 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kFormNames = {"reduced", "full"};
 constexpr std::array<std::string_view, 3> kIntegrationNames = {"auto", "euler", "exponential"};
-constexpr std::array<SettingField<GaussNewtonConfig>, 7> kFields = {
+constexpr std::array<SettingField<GaussNewtonConfig>, 8> kFields = {
     Choice<&GaussNewtonConfig::form>("form", kFormNames),
     Choice<&GaussNewtonConfig::integration>("integration", kIntegrationNames),
+    Choice<&GaussNewtonConfig::precision>("precision", kPrecisionNames),
     Number<&GaussNewtonConfig::k_per_s>("k_per_s", 0.0, 100.0),
     Number<&GaussNewtonConfig::rho>("rho", 0.0, 10.0),
     Number<&GaussNewtonConfig::null_time_s>("null_time_s", 0.0, 60.0),

@@ -48,7 +48,8 @@ struct GaussNewtonInput {
 };
 
 /// The mathematics of GaussNewtonOrientation (equations there), apart from start and bad input.
-/// `T` is double, or a pack of doubles: then every lane gets bit for bit what double gets.
+/// `T` is double or float, or a pack of them: then every lane gets bit for bit what the number
+/// gets.
 namespace gauss_newton {
 
 // The publications use 0.1–1 with the gyros of 2000. Leave-one-out over the twelve public BROAD
@@ -101,7 +102,8 @@ inline void CalibrateNull(const GaussNewtonConfig& config, const GaussNewtonInpu
   }
 }
 
-/// q ⊗ Exp(ω dt), or the Euler step of the publications.
+/// q ⊗ Exp(ω dt), or the Euler step of the publications, normalised. Exp is left as long as
+/// rounding makes it: the step on gravity and field that follows brings it back.
 template <typename T>
 [[nodiscard]] inline kernel::Quaternion<T> Integrated(const GaussNewtonConfig& config,
                                                       const kernel::Quaternion<T>& q,
@@ -113,7 +115,7 @@ template <typename T>
   const lanes::MaskOf<T> exponential =
       can_euler && can_exponential ? fast : lanes::MaskOf<T>(can_exponential);
   if (lanes::All(exponential)) {
-    return kernel::Normalised(kernel::Rotated(q, angle_rad));
+    return kernel::Rotated(q, angle_rad);
   }
   const auto euler = kernel::TimesOnePlus(q, kernel::Scaled(angle_rad, T(0.5)));
   if (!lanes::Any(exponential)) {
@@ -122,7 +124,7 @@ template <typename T>
   return kernel::Normalised(Select<T>(exponential, kernel::Rotated(q, angle_rad), euler));
 }
 
-/// q + q⊗(0, α Δv), normalised: one reduced Gauss–Newton step on up and field.
+/// q + q⊗(0, α Δv) = q + (0, α R Δv)⊗q, normalised: one reduced Gauss–Newton step on up and field.
 ///
 /// @param h0, b0  measured up and field in S, unit; b0 is zero where rho2 is.
 template <typename T>
@@ -130,13 +132,10 @@ template <typename T>
                                                      const kernel::Quaternion<T>& q,
                                                      const kernel::Vector<T>& h0,
                                                      const kernel::Vector<T>& b0, T rho2, T gain) {
-  const auto h = kernel::UpInSensor(q);
-  const auto n = kernel::NorthInSensor(q);
-  const kernel::Vector<T> b{s.field_north * n.x + s.field_up * h.x,
-                            s.field_north * n.y + s.field_up * h.y,
-                            s.field_north * n.z + s.field_up * h.z};
-  return kernel::Normalised(
-      kernel::TimesOnePlus(q, kernel::Scaled(kernel::ReducedStep(h, b, h0, b0, rho2), gain)));
+  const auto dv_E =
+      kernel::ReducedStepInEarth(kernel::EastInSensor(q), kernel::NorthInSensor(q),
+                                 kernel::UpInSensor(q), s.field_north, s.field_up, h0, b0, rho2);
+  return kernel::Normalised(kernel::OnePlusTimes(kernel::Scaled(dv_E, gain), q));
 }
 
 /// var ← (1 − α)² var + α² r/dt + growth: what the same gain would do to a scalar error.
@@ -197,6 +196,9 @@ inline void Step(const GaussNewtonConfig& config, const GaussNewtonInput<T>& in,
   const T rate_per_s = lanes::Select(usable, config.k_per_s > 0.0 ? T(config.k_per_s) : automatic,
                                      T(kFullGain_per_s));
   const T gain = lanes::Select(usable, lanes::Min(T(rate_per_s * in.dt_s), T(1)), T(1));
+  if (!lanes::All(accel_valid)) {
+    q = Select<T>(accel_valid, q, kernel::Normalised(q));
+  }
   if (lanes::Any(accel_valid)) {
     const kernel::Vector<T> zero{T(0), T(0), T(0)};
     const auto h0 = kernel::Scaled(

@@ -59,6 +59,13 @@ template <typename T>
           q.y + q.w * v.y + q.z * v.x - q.x * v.z, q.z + q.w * v.z + q.x * v.y - q.y * v.x};
 }
 
+/// (1, v) ⊗ q.
+template <typename T>
+[[nodiscard]] inline Quaternion<T> OnePlusTimes(const Vector<T>& v, const Quaternion<T>& q) {
+  return {q.w - v.x * q.x - v.y * q.y - v.z * q.z, q.x + v.x * q.w + v.y * q.z - v.z * q.y,
+          q.y + v.y * q.w + v.z * q.x - v.x * q.z, q.z + v.z * q.w + v.x * q.y - v.y * q.x};
+}
+
 /// q/|q|. Close to length 1, where trackers stay, 1/√(1+e) is its series to e⁴: exact to rounding
 /// while |e| < 1e-3.
 template <typename T>
@@ -74,23 +81,21 @@ template <typename T>
   return {q.w * s, q.x * s, q.y * s, q.z * s};
 }
 
-/// q ⊗ Exp(φ): sine and cosine of the half angle as series in its square x up to x⁶, exact to 1e-14
-/// below 1 rad; the library's functions above.
+/// q ⊗ Exp(φ): sine and cosine of the half angle as series in its square x, exact to rounding below
+/// 1 rad with terms up to x⁶ (x⁴ in single precision); the library's functions above.
 template <typename T>
 [[nodiscard]] inline Quaternion<T> Rotated(const Quaternion<T>& q, const Vector<T>& phi_rad) {
   constexpr double kSeriesBelow_rad = 1.0;
   const T theta2 = Dot(phi_rad, phi_rad);
   const T x = T(0.25) * theta2;
-  T c = T(1) - x * (T(1.0 / 2) -
-                    x * (T(1.0 / 24) -
-                         x * (T(1.0 / 720) - x * (T(1.0 / 40320) - x * (T(1.0 / 3628800) -
-                                                                        x * T(1.0 / 479001600))))));
-  T s = T(0.5) *
-        (T(1) -
-         x * (T(1.0 / 6) -
-              x * (T(1.0 / 120) -
-                   x * (T(1.0 / 5040) - x * (T(1.0 / 362880) -
-                                             x * (T(1.0 / 39916800) - x * T(1.0 / 6227020800)))))));
+  T c4 = T(1.0 / 40320);  // what follows x⁴
+  T s4 = T(1.0 / 362880);
+  if constexpr (sizeof(lanes::NumberOf<T>) == sizeof(double)) {
+    c4 = c4 - x * (T(1.0 / 3628800) - x * T(1.0 / 479001600));
+    s4 = s4 - x * (T(1.0 / 39916800) - x * T(1.0 / 6227020800));
+  }
+  T c = T(1) - x * (T(1.0 / 2) - x * (T(1.0 / 24) - x * (T(1.0 / 720) - x * c4)));
+  T s = T(0.5) * (T(1) - x * (T(1.0 / 6) - x * (T(1.0 / 120) - x * (T(1.0 / 5040) - x * s4))));
   const auto large = theta2 > T(kSeriesBelow_rad * kSeriesBelow_rad);
   if (lanes::Any(large)) {
     const T theta = lanes::Sqrt(theta2);
@@ -136,12 +141,13 @@ template <typename T>
           inverse_det * (c02 * c.x + c12 * c.y + c22 * c.z)};
 }
 
+inline constexpr double kSingularBelow = 1e-6;  // det A of the reduced step
+inline constexpr double kLambda = 1e-3;         // added to its diagonal then
+
 /// Δv of the reduced step, see ReducedStep; ρ² instead of ρ.
 template <typename T>
 [[nodiscard]] inline Vector<T> ReducedStep(const Vector<T>& h, const Vector<T>& b,
                                            const Vector<T>& h0, const Vector<T>& b0, T rho2) {
-  constexpr double kSingularBelow = 1e-6;
-  constexpr double kLambda = 1e-3;
   const Vector<T> hxb = Cross(h, b);
   // det A = (1+ρ²)·ρ²·|h × b|² for unit vectors.
   const T det = (T(1) + rho2) * rho2 * Dot(hxb, hxb);
@@ -154,6 +160,41 @@ template <typename T>
   return SolveSymmetric(s - h.x * h.x - rb.x * b.x, -h.x * h.y - rb.x * b.y,
                         -h.x * h.z - rb.x * b.z, s - h.y * h.y - rb.y * b.y,
                         -h.y * h.z - rb.y * b.z, s - h.z * h.z - rb.z * b.z, c);
+}
+
+/// The same step in earth axes, R Δv: there A does not depend on the attitude, and the chain of
+/// operations from one attitude to the next holds no matrix inversion. With h and b turned into
+/// earth they are up and the reference (0, N, U), so
+///
+///   R A Rᵀ = s I − z zᵀ − ρ² n nᵀ,  s = 1 + ρ² (+ λ),   det = (1 + ρ²) ρ² N²
+///   R c    = h₀ × z + ρ² b₀ × n     with h₀, b₀ in earth
+///
+/// which is s for east and a symmetric 2×2 block for north and up.
+///
+/// @param up_S, north_S, east_S  rows of R(q).
+/// @param h0, b0                 measured, in S, unit.
+template <typename T>
+[[nodiscard]] inline Vector<T> ReducedStepInEarth(const Vector<T>& east_S, const Vector<T>& north_S,
+                                                  const Vector<T>& up_S, T field_north, T field_up,
+                                                  const Vector<T>& h0, const Vector<T>& b0,
+                                                  T rho2) {
+  const T rn = rho2 * field_north;
+  const T det = (T(1) + rho2) * rn * field_north;
+  const T s = T(1) + rho2 + lanes::Select(det < T(kSingularBelow), T(kLambda), T(0));
+  const T north = s - rn * field_north;
+  const T cross = rn * field_up;
+  const T up = s - T(1) - rho2 * field_up * field_up;
+  const T block_det = north * up - cross * cross;
+  const T inverse = T(0.5) / (s * block_det);
+  const T by_east = inverse * block_det;
+  const T by_block = inverse * s;
+
+  const Vector<T> b0_E{Dot(east_S, b0), Dot(north_S, b0), Dot(up_S, b0)};
+  const T c_east = Dot(north_S, h0) + rho2 * (b0_E.y * field_up - b0_E.z * field_north);
+  const T c_north = -(Dot(east_S, h0) + rho2 * (b0_E.x * field_up));
+  const T c_up = rho2 * (b0_E.x * field_north);
+  return {by_east * c_east, by_block * (up * c_north + cross * c_up),
+          by_block * (cross * c_north + north * c_up)};
 }
 
 }  // namespace limbcast::filters::kernel

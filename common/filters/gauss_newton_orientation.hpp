@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "common/base/result.hpp"
@@ -26,6 +27,9 @@ namespace limbcast::filters {
 /// scalar filter with the same fixed gain for tilt and for heading, fed with disturbance densities
 /// of moving limbs (constants in the .cpp). Thread-compatible; allocates nothing after
 /// construction.
+///
+/// Scalar: arithmetic of the core, double or float.
+template <typename Scalar>
 class GaussNewtonOrientation final : public OrientationFilter {
  public:
   /// @param config  valid.
@@ -40,9 +44,9 @@ class GaussNewtonOrientation final : public OrientationFilter {
   [[nodiscard]] Status RestoreState(std::span<const std::byte> in) override;
 
   using Config = GaussNewtonConfig;
-  using Number = double;
-  using CoreInput = GaussNewtonInput<double>;
-  using CoreState = GaussNewtonState<double>;
+  using Number = Scalar;
+  using CoreInput = GaussNewtonInput<Scalar>;
+  using CoreState = GaussNewtonState<Scalar>;
 
   /// Update in parts, for a batch that steps the core of several filters at once.
   ///
@@ -78,7 +82,7 @@ class GaussNewtonOrientation final : public OrientationFilter {
     SampleGate gate;
     TwoVectorStart start;
     AttitudeWatchdog watchdog;
-    GaussNewtonState<double> core{};
+    CoreState core{};
     double heading_before_rad = 0.0;  // of a restart
     bool starting = true;
     bool lost = false;  // the restart under way forgets the gyro null
@@ -93,5 +97,12 @@ class GaussNewtonOrientation final : public OrientationFilter {
   GatedSample gated_;  // the one in work
   CoreInput input_{};
 };
+
+extern template class GaussNewtonOrientation<double>;
+extern template class GaussNewtonOrientation<float>;
+
+/// A GaussNewtonOrientation in the precision that `config` asks for.
+[[nodiscard]] std::unique_ptr<OrientationFilter> MakeGaussNewtonOrientation(
+    const GaussNewtonConfig& config);
 
 }  // namespace limbcast::filters

@@ -41,8 +41,9 @@ std::vector<sensing::MargSample> MovingLimb(unsigned seed, double rate_hz) {
   return samples;
 }
 
-kernel::Vector<double> Plain(const Eigen::Vector3f& v) {
-  return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
+template <typename S>
+kernel::Vector<S> Plain(const Eigen::Vector3f& v) {
+  return {static_cast<S>(v.x()), static_cast<S>(v.y()), static_cast<S>(v.z())};
 }
 
 template <typename Record>
@@ -68,48 +69,51 @@ void SetTime(benchmark::State& state) {
       static_cast<double>(items) * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+template <typename S>
 void BM_GaussNewton(benchmark::State& state, const BatchKernels* kernels) {
+  using Input = GaussNewtonInput<S>;
+  using State = GaussNewtonState<S>;
   if (kernels == nullptr) {
     state.SkipWithError("not on this machine");
     return;
   }
   const double rate_hz = static_cast<double>(state.range(0));
-  const int width = kernels->width_double;
+  constexpr bool kIsDouble = sizeof(S) == sizeof(double);
+  const int width = kIsDouble ? kernels->width_double : kernels->width_float;
+  const auto step = kIsDouble ? kernels->gauss_newton_double : kernels->gauss_newton_float;
   const int groups = kSensors / width;
-  Blocks<GaussNewtonInput<double>> inputs(kSamples * groups, width);
-  Blocks<GaussNewtonState<double>> states(groups, width);
+  Blocks<Input> inputs(kSamples * groups, width);
+  Blocks<State> states(groups, width);
   for (int sensor = 0; sensor < kSensors; ++sensor) {
     const auto samples = MovingLimb(static_cast<unsigned>(sensor), rate_hz);
     for (int i = 0; i < kSamples; ++i) {
       const auto& sample = samples[static_cast<std::size_t>(i)];
-      const GaussNewtonInput<double> input{.present = 1.0,
-                                           .dt_s = 1.0 / rate_hz,
-                                           .unseen_rad2 = 0.0,
-                                           .gyro_rad_s = Plain(sample.gyro_rad_s),
-                                           .accel_m_s2 = Plain(sample.accel_m_s2),
-                                           .mag_tesla = Plain(sample.mag_tesla),
-                                           .gyro_measured = 1.0,
-                                           .gyro_usable = 1.0,
-                                           .accel_valid = 1.0,
-                                           .use_field = 1.0};
-      lanes::PutLane<GaussNewtonInput<double>, double>(inputs[i * groups + sensor / width], width,
-                                                       sensor % width, input);
+      const Input input{.present = S(1),
+                        .dt_s = static_cast<S>(1.0 / rate_hz),
+                        .unseen_rad2 = S(0),
+                        .gyro_rad_s = Plain<S>(sample.gyro_rad_s),
+                        .accel_m_s2 = Plain<S>(sample.accel_m_s2),
+                        .mag_tesla = Plain<S>(sample.mag_tesla),
+                        .gyro_measured = S(1),
+                        .gyro_usable = S(1),
+                        .accel_valid = S(1),
+                        .use_field = S(1)};
+      lanes::PutLane<Input, S>(inputs[i * groups + sensor / width], width, sensor % width, input);
     }
-    GaussNewtonState<double> start{};
-    start.q_ES.w = 1.0;
-    start.field_north = 0.39;
-    start.field_up = -0.92;
-    start.inverse_field_per_tesla = 1.0 / 48e-6;
-    start.has_field = 1.0;
-    start.null_known = 1.0;
-    lanes::PutLane<GaussNewtonState<double>, double>(states[sensor / width], width, sensor % width,
-                                                     start);
+    State start{};
+    start.q_ES.w = S(1.0);
+    start.field_north = S(0.39);
+    start.field_up = S(-0.92);
+    start.inverse_field_per_tesla = S(1.0 / 48e-6);
+    start.has_field = S(1.0);
+    start.null_known = S(1.0);
+    lanes::PutLane<State, S>(states[sensor / width], width, sensor % width, start);
   }
   const GaussNewtonConfig config;
   for (auto _ : state) {
     for (int i = 0; i < kSamples; ++i) {
       for (int group = 0; group < groups; ++group) {
-        kernels->gauss_newton(config, inputs[i * groups + group], states[group]);
+        step(config, inputs[i * groups + group], states[group]);
       }
     }
     benchmark::ClobberMemory();
@@ -159,8 +163,17 @@ void BM_BoundedMotion(benchmark::State& state, const BatchKernels* kernels) {
   SetTime(state);
 }
 
-BENCHMARK_CAPTURE(BM_GaussNewton, avx2, Avx2Kernels())->Arg(286)->Arg(100);
-BENCHMARK_CAPTURE(BM_GaussNewton, baseline, &BaselineKernels())->Arg(286)->Arg(100);
+void BM_GaussNewtonDouble(benchmark::State& state, const BatchKernels* kernels) {
+  BM_GaussNewton<double>(state, kernels);
+}
+void BM_GaussNewtonFloat(benchmark::State& state, const BatchKernels* kernels) {
+  BM_GaussNewton<float>(state, kernels);
+}
+
+BENCHMARK_CAPTURE(BM_GaussNewtonDouble, avx2, Avx2Kernels())->Arg(286)->Arg(100);
+BENCHMARK_CAPTURE(BM_GaussNewtonFloat, avx2, Avx2Kernels())->Arg(286)->Arg(100);
+BENCHMARK_CAPTURE(BM_GaussNewtonDouble, baseline, &BaselineKernels())->Arg(286)->Arg(100);
+BENCHMARK_CAPTURE(BM_GaussNewtonFloat, baseline, &BaselineKernels())->Arg(286)->Arg(100);
 void BM_BoundedMotionDouble(benchmark::State& state, const BatchKernels* kernels) {
   BM_BoundedMotion<double>(state, kernels);
 }
@@ -202,6 +215,7 @@ void BM_FilterBatches(benchmark::State& state, const std::string& name,
 }
 
 BENCHMARK_CAPTURE(BM_FilterBatches, tqt, "tqt", {})->Arg(286)->Arg(100);
+BENCHMARK_CAPTURE(BM_FilterBatches, tqt_float, "tqt", {{"precision", "float"}})->Arg(286)->Arg(100);
 BENCHMARK_CAPTURE(BM_FilterBatches, bmf_double, "bmf", {})->Arg(286)->Arg(100);
 BENCHMARK_CAPTURE(BM_FilterBatches, bmf_float, "bmf", {{"precision", "float"}})->Arg(286)->Arg(100);
 

@@ -50,6 +50,8 @@ void BM_FilterUpdate(benchmark::State& state, const std::string& name,
 }
 
 BENCHMARK_CAPTURE(BM_FilterUpdate, tqt_reduced, "tqt", {})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_FilterUpdate, tqt_float, "tqt", {{"precision", "float"}})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_FilterUpdate, tqt_full, "tqt", {{"form", "full"}})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_FilterUpdate, ckf, "ckf", {})->Unit(benchmark::kMillisecond);

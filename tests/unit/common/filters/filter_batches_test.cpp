@@ -239,22 +239,23 @@ TEST_P(FilterBatchesTest, NoStepAllocates) {
   EXPECT_EQ(test_support::AllocationCount(), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Filters, FilterBatchesTest,
-                         ::testing::Values(Case{"tqt", {}, 0.0},
-                                           Case{
-                                               "tqt", {{"iterations", "3"}, {"k_per_s", "1"}}, 0.0},
-                                           Case{"bmf", {}, 1e-5}, Case{"bmf-plain", {}, 1e-5}),
-                         [](const auto& tested) {
-                           std::string name =
-                               tested.param.name == "bmf-plain" ? "bmf_plain" : tested.param.name;
-                           return name + std::to_string(tested.param.settings.size());
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Filters, FilterBatchesTest,
+    ::testing::Values(Case{"tqt", {}, 0.0}, Case{"tqt", {{"precision", "float"}}, 0.0},
+                      Case{"tqt", {{"iterations", "3"}, {"k_per_s", "1"}}, 0.0},
+                      Case{"bmf", {}, 1e-5}, Case{"bmf-plain", {}, 1e-5}),
+    [](const auto& tested) {
+      std::string name = tested.param.name == "bmf-plain" ? "bmf_plain" : tested.param.name;
+      return name + std::to_string(tested.param.settings.size());
+    });
 
 TEST(FilterBatchesSeatTest, FiltersWithoutABatchAreGivenBack) {
   FilterBatches batches;
   EXPECT_EQ(batches.Seat(std::move(*MakeFilter("ckf")))->batched(), nullptr);
   const std::vector<Setting> full = {{"form", "full"}};
   EXPECT_EQ(batches.Seat(std::move(*MakeFilter("tqt", full)))->batched(), nullptr);
+  const std::vector<Setting> full_float = {{"form", "full"}, {"precision", "float"}};
+  EXPECT_EQ(batches.Seat(std::move(*MakeFilter("tqt", full_float)))->batched(), nullptr);
   EXPECT_EQ(batches.batch_count(), 0U);
 }
 

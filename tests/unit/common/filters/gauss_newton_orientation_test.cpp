@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "common/filters/gauss_newton_step.hpp"
 #include "common/math/rotation.hpp"
@@ -38,7 +39,7 @@ TEST(GaussNewtonOrientationTest, TracksCleanMotionExactly) {
   for (const double rate_hz : {25.0, 100.0, 285.714, 1000.0}) {
     MargStream stream(
         {.rate_hz = rate_hz, .rest_s = 3.0, .q_start = math::ExpSO3({1.0, 2.0, 0.5})});
-    GaussNewtonOrientation filter({.integration = RateIntegration::kExponential});
+    GaussNewtonOrientation<double> filter({.integration = RateIntegration::kExponential});
     Feed(filter, stream, 33.0);
     EXPECT_LT(ErrorOf(filter, stream), 1e-3 * kDeg) << rate_hz;
   }
@@ -47,10 +48,10 @@ TEST(GaussNewtonOrientationTest, TracksCleanMotionExactly) {
 TEST(GaussNewtonOrientationTest, EulerStepsUnderRotateAsComputed) {
   // One step of θ loses θ − 2·atan(θ/2) ≈ θ³/12; without feedback (tiny k) it adds up.
   const double theta_rad = 0.1;
-  GaussNewtonOrientation filter({.integration = RateIntegration::kEuler,
-                                 .k_per_s = 1e-9,
-                                 .null_time_s = 0.0,
-                                 .init_time_s = 0.0});
+  GaussNewtonOrientation<double> filter({.integration = RateIntegration::kEuler,
+                                         .k_per_s = 1e-9,
+                                         .null_time_s = 0.0,
+                                         .init_time_s = 0.0});
   sensing::MargSample sample;
   sample.accel_m_s2 = {0.0F, 0.0F, 9.81F};
   sample.mag_tesla = {0.0F, 20e-6F, -40e-6F};
@@ -74,8 +75,8 @@ TEST(GaussNewtonOrientationTest, BothFormsGiveTheSameTrack) {
                                 .mag_noise_tesla = 5e-7};
   for (const double rho : {0.2, 0.45, 1.0}) {
     MargStream stream(motion);
-    GaussNewtonOrientation reduced({.rho = rho});
-    GaussNewtonOrientation full({.form = GaussNewtonForm::kFull4x4, .rho = rho});
+    GaussNewtonOrientation<double> reduced({.rho = rho});
+    GaussNewtonOrientation<double> full({.form = GaussNewtonForm::kFull4x4, .rho = rho});
     double worst_rad = 0.0;
     for (int i = 0; i < 3000; ++i) {
       const auto sample = stream.Next();
@@ -93,11 +94,11 @@ TEST(GaussNewtonOrientationTest, EqualsThePublishedMathematicsInNed) {
   MargStream stream({.accel_rms_m_s2 = 1.0, .gyro_noise_rad_s = 0.01, .mag_noise_tesla = 1e-6});
   const double k_per_s = 0.7;
   const double rho = 0.8;
-  GaussNewtonOrientation filter({.integration = RateIntegration::kEuler,
-                                 .k_per_s = k_per_s,
-                                 .rho = rho,
-                                 .null_time_s = 0.0,
-                                 .init_time_s = 0.0});
+  GaussNewtonOrientation<double> filter({.integration = RateIntegration::kEuler,
+                                         .k_per_s = k_per_s,
+                                         .rho = rho,
+                                         .null_time_s = 0.0,
+                                         .init_time_s = 0.0});
   const Quaterniond q_EN(0.0, std::sqrt(0.5), std::sqrt(0.5), 0.0);
   Quaterniond q_ned;
   Vector3d n;
@@ -133,13 +134,13 @@ TEST(GaussNewtonOrientationTest, EqualsThePublishedMathematicsInNed) {
 TEST(GaussNewtonOrientationTest, NullIsTheMeanAtRestAndIsNotTakenInMotion) {
   const Vector3d bias_rad_s(0.01, -0.02, 0.015);
   MargStream at_rest({.rest_s = 10.0, .gyro_bias_rad_s = bias_rad_s});
-  GaussNewtonOrientation calibrated({});
+  GaussNewtonOrientation<double> calibrated({});
   Feed(calibrated, at_rest, 3.0);
   EXPECT_LT((calibrated.estimate().gyro_bias_rad_s - bias_rad_s).norm(), 1e-6);
   EXPECT_TRUE(calibrated.estimate().at_rest);
 
   MargStream moving({.gyro_bias_rad_s = bias_rad_s});
-  GaussNewtonOrientation uncalibrated({});
+  GaussNewtonOrientation<double> uncalibrated({});
   Feed(uncalibrated, moving, 20.0);
   EXPECT_EQ(uncalibrated.estimate().gyro_bias_rad_s, Vector3d::Zero());
 }
@@ -149,7 +150,7 @@ TEST(GaussNewtonOrientationTest, AWrongStartDecaysWithTheGain) {
   const double k_per_s = 0.5;
   const double bias_rad_s = 0.01;
   MargStream stream({.rate_rms_rad_s = 0.0, .gyro_bias_rad_s = Vector3d(bias_rad_s, 0.0, 0.0)});
-  GaussNewtonOrientation filter(
+  GaussNewtonOrientation<double> filter(
       {.k_per_s = k_per_s, .rho = 1.0, .null_time_s = 0.0, .init_time_s = 0.0});
   Feed(filter, stream, 2.0);
   EXPECT_NEAR(ErrorOf(filter, stream), bias_rad_s / k_per_s * (1.0 - std::exp(-k_per_s * 2.0)),
@@ -167,7 +168,7 @@ TEST(GaussNewtonOrientationTest, StaticDriftIsSmallerThanPublished) {
                      .gyro_noise_rad_s = 0.01,
                      .accel_noise_m_s2 = 0.05,
                      .mag_noise_tesla = 5e-7});
-  GaussNewtonOrientation filter({.k_per_s = 1.0, .rho = 1.0});
+  GaussNewtonOrientation<double> filter({.k_per_s = 1.0, .rho = 1.0});
   Feed(filter, stream, 3600.0);
   EXPECT_LT(ErrorOf(filter, stream), 0.02);  // 1 % of the components is 0.02 rad
 }
@@ -180,7 +181,7 @@ TEST(GaussNewtonOrientationTest, TiltTableErrorIsBelowOneDegree) {
                      .gyro_noise_rad_s = 0.005,
                      .accel_noise_m_s2 = 0.1,
                      .mag_noise_tesla = 5e-7});
-  GaussNewtonOrientation filter({.k_per_s = 1.0, .rho = 1.0});
+  GaussNewtonOrientation<double> filter({.k_per_s = 1.0, .rho = 1.0});
   Feed(filter, stream, 3.0);
   double worst_rad = 0.0;
   for (int i = 0; i < 6000; ++i) {
@@ -192,7 +193,7 @@ TEST(GaussNewtonOrientationTest, TiltTableErrorIsBelowOneDegree) {
 
 TEST(GaussNewtonOrientationTest, WorksWithoutGyroFromAccelerometerAndMagnetometer) {
   MargStream stream({.q_start = math::ExpSO3({0.4, 0.1, -2.0})});
-  GaussNewtonOrientation filter({});
+  GaussNewtonOrientation<double> filter({});
   Feed(filter, stream, 10.0, sensing::kGyroMissing);
   EXPECT_TRUE(filter.estimate().started);
   EXPECT_FALSE(filter.estimate().degraded);  // it never had one
@@ -201,7 +202,7 @@ TEST(GaussNewtonOrientationTest, WorksWithoutGyroFromAccelerometerAndMagnetomete
 
 TEST(GaussNewtonOrientationTest, WithoutMagnetometerTiltIsKeptAndHeadingIsFree) {
   MargStream stream({.rest_s = 3.0});
-  GaussNewtonOrientation filter({});
+  GaussNewtonOrientation<double> filter({});
   Feed(filter, stream, 30.0, sensing::kMagMissing);
   EXPECT_EQ(filter.estimate().heading, HeadingReference::kArbitrary);
   EXPECT_EQ(filter.estimate().magnetic_state, MagneticState::kUnused);
@@ -213,13 +214,100 @@ TEST(GaussNewtonOrientationTest, WithoutMagnetometerTiltIsKeptAndHeadingIsFree) 
 
 TEST(GaussNewtonOrientationTest, EquivalentCovarianceSettlesAndGrowsWithoutReference) {
   MargStream stream({.rest_s = 3.0});
-  GaussNewtonOrientation filter({});
+  GaussNewtonOrientation<double> filter({});
   Feed(filter, stream, 60.0);
   const Eigen::Matrix3d settled = filter.estimate().cov_orientation_rad2;
   EXPECT_NEAR(std::sqrt(settled(0, 0)), 1.6 * kDeg, 0.3 * kDeg);
   EXPECT_NEAR(std::sqrt(settled(2, 2)), 3.0 * kDeg, 0.5 * kDeg);
   Feed(filter, stream, 10.0, sensing::kMagMissing);
   EXPECT_GT(filter.estimate().cov_orientation_rad2(2, 2), settled(2, 2));
+}
+
+// Noise, a moving limb, and readings that are missing or not numbers.
+sensing::MargSample NextOfAHardStream(MargStream& stream, int i) {
+  auto sample = stream.Next();
+  if (i % 211 == 0) {
+    sample.gyro_rad_s.y() = NAN;
+  }
+  if (i % 317 < 2) {
+    sample.accel_m_s2.x() = INFINITY;
+  }
+  if (i % 2'300 < 12) {
+    sample.flags |= sensing::kGyroMissing;  // too long to hold
+  }
+  if (i % 3'100 < 300) {
+    sample.mag_tesla.setZero();
+  }
+  return sample;
+}
+const MargStreamConfig kHard{.rest_s = 3.0,
+                             .accel_rms_m_s2 = 2.0,
+                             .gyro_bias_rad_s = Vector3d(0.01, -0.005, 0.002),
+                             .gyro_noise_rad_s = 0.002,
+                             .accel_noise_m_s2 = 0.05,
+                             .mag_noise_tesla = 5e-7};
+
+TEST(GaussNewtonOrientationTest, SinglePrecisionFollowsDouble) {
+  MargStream stream(kHard);
+  GaussNewtonOrientation<double> wide({});
+  GaussNewtonOrientation<float> narrow({});
+  for (int i = 0; i < 60'000; ++i) {  // ten minutes
+    const auto sample = NextOfAHardStream(stream, i);
+    ASSERT_EQ(narrow.Update(sample), wide.Update(sample)) << i;
+    ASSERT_EQ(narrow.estimate().started, wide.estimate().started);
+    ASSERT_EQ(narrow.estimate().degraded, wide.estimate().degraded);
+    ASSERT_EQ(narrow.estimate().heading, wide.estimate().heading);
+    ASSERT_LT(math::AngleBetween_rad(narrow.estimate().q_earth_sensor.normalized(),
+                                     wide.estimate().q_earth_sensor),
+              0.01 * kDeg)
+        << i;
+    ASSERT_NEAR(narrow.estimate().q_earth_sensor.norm(), 1.0, 1e-6) << i;
+  }
+}
+
+// The integration leaves the length as rounding makes it: so it must not creep while nothing pulls.
+TEST(GaussNewtonOrientationTest, LengthStaysOneWithoutAccelerometer) {
+  MargStream stream({.rest_s = 3.0, .rate_rms_rad_s = 8.0});
+  GaussNewtonOrientation<double> wide({});
+  GaussNewtonOrientation<float> narrow({});
+  for (int i = 0; i < 60'000; ++i) {
+    auto sample = stream.Next();
+    if (i > 500) {
+      sample.flags |= sensing::kAccelMissing;
+    }
+    static_cast<void>(wide.Update(sample));
+    static_cast<void>(narrow.Update(sample));
+  }
+  EXPECT_NEAR(wide.estimate().q_earth_sensor.norm(), 1.0, 1e-14);
+  EXPECT_NEAR(narrow.estimate().q_earth_sensor.norm(), 1.0, 1e-6);
+}
+
+TEST(GaussNewtonOrientationTest, ASinglePrecisionStateContinuesBitForBitAndOnlyThere) {
+  MargStream stream(kHard);
+  GaussNewtonOrientation<float> filter({});
+  for (int i = 0; i < 1'000; ++i) {
+    static_cast<void>(filter.Update(NextOfAHardStream(stream, i)));
+  }
+  std::vector<std::byte> bytes(filter.state_size_bytes());
+  filter.SaveState(bytes);
+  GaussNewtonOrientation<float> other({});
+  ASSERT_TRUE(other.RestoreState(bytes).ok());
+  for (int i = 1'000; i < 4'000; ++i) {
+    const auto sample = NextOfAHardStream(stream, i);
+    ASSERT_EQ(filter.Update(sample), other.Update(sample));
+    ASSERT_TRUE(filter.estimate().q_earth_sensor.coeffs() ==
+                other.estimate().q_earth_sensor.coeffs());
+    ASSERT_TRUE(filter.estimate().cov_orientation_rad2 == other.estimate().cov_orientation_rad2);
+  }
+  GaussNewtonOrientation<double> wide({});
+  EXPECT_FALSE(wide.RestoreState(bytes).ok());
+}
+
+TEST(GaussNewtonOrientationTest, ThePrecisionIsTheOneAskedFor) {
+  const auto wide = MakeGaussNewtonOrientation({});
+  const auto narrow = MakeGaussNewtonOrientation({.precision = Precision::kFloat});
+  EXPECT_NE(dynamic_cast<GaussNewtonOrientation<double>*>(wide.get()), nullptr);
+  EXPECT_NE(dynamic_cast<GaussNewtonOrientation<float>*>(narrow.get()), nullptr);
 }
 
 TEST(GaussNewtonConfigTest, ValidateNamesFieldValueAndRange) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "common/filters/gauss_newton_kernel.hpp"
 #include "common/filters/two_vector_start.hpp"
 #include "common/math/rotation.hpp"
 
@@ -150,6 +151,75 @@ TEST(GaussNewtonStepTest, BothFormsAgreeToSecondOrder) {
       EXPECT_LT(math::AngleBetween_rad(by_full, by_reduced), 2.0 * error_rad * error_rad);
       EXPECT_LT(math::AngleBetween_rad(by_full, q_true), 4.0 * error_rad * error_rad);
       EXPECT_LT(math::AngleBetween_rad(by_reduced, q_true), 4.0 * error_rad * error_rad);
+    }
+  }
+}
+
+// ENU, as the kernel has it.
+Vector3d FieldEnu(double dip_deg) {
+  const double dip = dip_deg * std::numbers::pi / 180.0;
+  return {0.0, std::cos(dip), -std::sin(dip)};
+}
+kernel::Vector<double> Plain(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Vector3d StepInEarth(const Quaterniond& q, const Vector3d& n, const Vector3d& h0,
+                     const Vector3d& b0, double rho) {
+  const kernel::Quaternion<double> p{q.w(), q.x(), q.y(), q.z()};
+  const auto dv = kernel::ReducedStepInEarth(kernel::EastInSensor(p), kernel::NorthInSensor(p),
+                                             kernel::UpInSensor(p), n.y(), n.z(), Plain(h0),
+                                             Plain(b0), rho * rho);
+  return {dv.x, dv.y, dv.z};
+}
+
+TEST(GaussNewtonStepTest, TheStepInEarthAxesIsTheReducedStepTurned) {
+  std::mt19937 rng(16);
+  // 90°: a vertical field says nothing about heading. ρ = 0: no field.
+  for (const double dip_deg : {-90.0, -60.0, 0.0, 45.0, 67.0, 85.0, 89.0, 90.0}) {
+    const Vector3d n = FieldEnu(dip_deg);
+    for (const double rho : {0.0, 0.2, 0.45, 1.0, 3.0}) {
+      for (int trial = 0; trial < 50; ++trial) {
+        const Quaterniond q = RandomQuaternion(rng);
+        const Vector3d h0 = RandomUnit(rng);
+        const Vector3d b0 = rho == 0.0 ? Vector3d::Zero().eval() : RandomUnit(rng);
+        const Vector3d in_sensor =
+            ReducedStep(q.conjugate() * Vector3d::UnitZ(), q.conjugate() * n, h0, b0, rho);
+        const Vector3d in_earth = StepInEarth(q, n, h0, b0, rho);
+        EXPECT_LT((q.conjugate() * in_earth - in_sensor).norm(), 1e-9 * (1.0 + in_sensor.norm()))
+            << "dip " << dip_deg << " rho " << rho;
+      }
+    }
+  }
+}
+
+TEST(GaussNewtonStepTest, AStepInEarthAxesIsTakenFromTheLeft) {
+  std::mt19937 rng(17);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Quaterniond q = RandomQuaternion(rng);
+    const Vector3d v = RandomUnit(rng);
+    const auto product =
+        kernel::OnePlusTimes(Plain(v), kernel::Quaternion<double>{q.w(), q.x(), q.y(), q.z()});
+    const Quaterniond expected = Quaterniond(1.0, v.x(), v.y(), v.z()) * q;
+    EXPECT_LT(ComponentError({product.w, product.x, product.y, product.z}, expected), 1e-15 * 8.0);
+  }
+}
+
+TEST(GaussNewtonStepTest, TheStepInEarthAxesAgreesWithTheFullStepToSecondOrder) {
+  std::mt19937 rng(18);
+  const Vector3d up = Vector3d::UnitZ();
+  const Vector3d n = FieldEnu(60.0);
+  for (const double rho : {0.2, 0.45, 1.0}) {
+    for (int trial = 0; trial < 50; ++trial) {
+      const Quaterniond q_true = RandomQuaternion(rng);
+      const Vector6 y0 = ComputedMeasurement(q_true, up, n);
+      for (const double error_rad : {1e-2, 1e-3}) {
+        const Quaterniond q = q_true * math::ExpSO3(error_rad * RandomUnit(rng));
+        const Quaterniond by_full =
+            Plus(q, FullStep(q, up, n, y0.head<3>(), y0.tail<3>(), rho)).normalized();
+        const Vector3d dv_E = StepInEarth(q, n, y0.head<3>(), y0.tail<3>(), rho);
+        const Quaterniond by_earth =
+            (Quaterniond(1.0, dv_E.x(), dv_E.y(), dv_E.z()) * q).normalized();
+        EXPECT_LT(math::AngleBetween_rad(by_full, by_earth), 2.0 * error_rad * error_rad);
+        EXPECT_LT(math::AngleBetween_rad(by_earth, q_true), 4.0 * error_rad * error_rad);
+      }
     }
   }
 }
