@@ -81,21 +81,16 @@ template <typename T>
   return {q.w * s, q.x * s, q.y * s, q.z * s};
 }
 
-/// q ⊗ Exp(φ): sine and cosine of the half angle as series in its square x, exact to rounding below
-/// 1 rad with terms up to x⁶ (x⁴ in single precision); the library's functions above.
+/// q ⊗ Exp(φ): sine and cosine of the half angle as series in its square x to x⁴, exact to rounding
+/// below 0.25 rad (1 rad in single precision); the library's functions above.
 template <typename T>
 [[nodiscard]] inline Quaternion<T> Rotated(const Quaternion<T>& q, const Vector<T>& phi_rad) {
-  constexpr double kSeriesBelow_rad = 1.0;
+  constexpr double kSeriesBelow_rad = sizeof(lanes::NumberOf<T>) == sizeof(double) ? 0.25 : 1.0;
   const T theta2 = Dot(phi_rad, phi_rad);
   const T x = T(0.25) * theta2;
-  T c4 = T(1.0 / 40320);  // what follows x⁴
-  T s4 = T(1.0 / 362880);
-  if constexpr (sizeof(lanes::NumberOf<T>) == sizeof(double)) {
-    c4 = c4 - x * (T(1.0 / 3628800) - x * T(1.0 / 479001600));
-    s4 = s4 - x * (T(1.0 / 39916800) - x * T(1.0 / 6227020800));
-  }
-  T c = T(1) - x * (T(1.0 / 2) - x * (T(1.0 / 24) - x * (T(1.0 / 720) - x * c4)));
-  T s = T(0.5) * (T(1) - x * (T(1.0 / 6) - x * (T(1.0 / 120) - x * (T(1.0 / 5040) - x * s4))));
+  T c = T(1) - x * (T(1.0 / 2) - x * (T(1.0 / 24) - x * (T(1.0 / 720) - x * T(1.0 / 40320))));
+  T s = T(0.5) *
+        (T(1) - x * (T(1.0 / 6) - x * (T(1.0 / 120) - x * (T(1.0 / 5040) - x * T(1.0 / 362880)))));
   const auto large = theta2 > T(kSeriesBelow_rad * kSeriesBelow_rad);
   if (lanes::Any(large)) {
     const T theta = lanes::Sqrt(theta2);
@@ -109,21 +104,26 @@ template <typename T>
           q.w * v.y + q.y * c + q.z * v.x - q.x * v.z, q.w * v.z + q.z * c + q.x * v.y - q.y * v.x};
 }
 
-/// Rows of R(q): the earth axes in sensor coordinates.
+/// Rows of R(q): the earth axes in sensor coordinates. Written with 2x, 2y, 2z, which they share.
 template <typename T>
 [[nodiscard]] inline Vector<T> EastInSensor(const Quaternion<T>& q) {
-  return {T(1) - T(2) * (q.y * q.y + q.z * q.z), T(2) * (q.x * q.y - q.w * q.z),
-          T(2) * (q.x * q.z + q.w * q.y)};
+  const T y2 = q.y + q.y;
+  const T z2 = q.z + q.z;
+  return {T(1) - (q.y * y2 + q.z * z2), q.x * y2 - q.w * z2, q.x * z2 + q.w * y2};
 }
 template <typename T>
 [[nodiscard]] inline Vector<T> NorthInSensor(const Quaternion<T>& q) {
-  return {T(2) * (q.x * q.y + q.w * q.z), T(1) - T(2) * (q.x * q.x + q.z * q.z),
-          T(2) * (q.y * q.z - q.w * q.x)};
+  const T x2 = q.x + q.x;
+  const T y2 = q.y + q.y;
+  const T z2 = q.z + q.z;
+  return {q.x * y2 + q.w * z2, T(1) - (q.x * x2 + q.z * z2), q.y * z2 - q.w * x2};
 }
 template <typename T>
 [[nodiscard]] inline Vector<T> UpInSensor(const Quaternion<T>& q) {
-  return {T(2) * (q.x * q.z - q.w * q.y), T(2) * (q.y * q.z + q.w * q.x),
-          T(1) - T(2) * (q.x * q.x + q.y * q.y)};
+  const T x2 = q.x + q.x;
+  const T y2 = q.y + q.y;
+  const T z2 = q.z + q.z;
+  return {q.x * z2 - q.w * y2, q.y * z2 + q.w * x2, T(1) - (q.x * x2 + q.y * y2)};
 }
 
 /// A⁻¹ c for symmetric A = [a b d; b e f; d f g], by cofactors.
@@ -164,37 +164,47 @@ template <typename T>
 
 /// The same step in earth axes, R Δv: there A does not depend on the attitude, and the chain of
 /// operations from one attitude to the next holds no matrix inversion. With h and b turned into
-/// earth they are up and the reference (0, N, U), so
+/// earth they are up and the reference n = (0, N, U), so
 ///
 ///   R A Rᵀ = s I − z zᵀ − ρ² n nᵀ,  s = 1 + ρ² (+ λ),   det = (1 + ρ²) ρ² N²
 ///   R c    = h₀ × z + ρ² b₀ × n     with h₀, b₀ in earth
 ///
-/// which is s for east and a symmetric 2×2 block for north and up.
+/// which is s for east and a symmetric 2×2 block for north and up. Without λ that is solved by
 ///
-/// @param up_S, north_S, east_S  rows of R(q).
+///   R Δv = ½ ((h₀.n + ρ² (b₀.n U − b₀.u N)) / (1 + ρ²),  −h₀.e,  (b₀.e − U h₀.e) / N)
+///
+/// @param east_S, north_S, up_S  rows of R(q).
 /// @param h0, b0                 measured, in S, unit.
 template <typename T>
 [[nodiscard]] inline Vector<T> ReducedStepInEarth(const Vector<T>& east_S, const Vector<T>& north_S,
                                                   const Vector<T>& up_S, T field_north, T field_up,
                                                   const Vector<T>& h0, const Vector<T>& b0,
                                                   T rho2) {
+  const Vector<T> b0_E{Dot(east_S, b0), Dot(north_S, b0), Dot(up_S, b0)};
+  const T h0_east = Dot(east_S, h0);
+  const T h0_north = Dot(north_S, h0);
+  const T c_east = h0_north + rho2 * (b0_E.y * field_up - b0_E.z * field_north);
+  const T one = T(1) + rho2;
+  const T inverse = T(0.5) / (one * field_north);
+  const Vector<T> dv{(inverse * field_north) * c_east, T(-0.5) * h0_east,
+                     (inverse * one) * (b0_E.x - field_up * h0_east)};
+
   const T rn = rho2 * field_north;
-  const T det = (T(1) + rho2) * rn * field_north;
-  const T s = T(1) + rho2 + lanes::Select(det < T(kSingularBelow), T(kLambda), T(0));
+  const lanes::MaskOf<T> singular(one * rn * field_north < T(kSingularBelow));
+  if (!lanes::Any(singular)) {
+    return dv;
+  }
+  const T s = one + T(kLambda);
   const T north = s - rn * field_north;
   const T cross = rn * field_up;
   const T up = s - T(1) - rho2 * field_up * field_up;
-  const T block_det = north * up - cross * cross;
-  const T inverse = T(0.5) / (s * block_det);
-  const T by_east = inverse * block_det;
-  const T by_block = inverse * s;
-
-  const Vector<T> b0_E{Dot(east_S, b0), Dot(north_S, b0), Dot(up_S, b0)};
-  const T c_east = Dot(north_S, h0) + rho2 * (b0_E.y * field_up - b0_E.z * field_north);
-  const T c_north = -(Dot(east_S, h0) + rho2 * (b0_E.x * field_up));
+  const T by_block = T(0.5) / (north * up - cross * cross);
+  const T c_north = -(h0_east + rho2 * (b0_E.x * field_up));
   const T c_up = rho2 * (b0_E.x * field_north);
-  return {by_east * c_east, by_block * (up * c_north + cross * c_up),
-          by_block * (cross * c_north + north * c_up)};
+  return Select<T>(singular,
+                   Vector<T>{T(0.5) / s * c_east, by_block * (up * c_north + cross * c_up),
+                             by_block * (cross * c_north + north * c_up)},
+                   dv);
 }
 
 }  // namespace limbcast::filters::kernel
