@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kMinSpeed = 0.01;
 constexpr double kMaxSpeed = 1000.0;
-constexpr std::size_t kMaxNameLength = 64;  // bound of the wire types
+constexpr std::size_t kMaxNameLength = 64;    // bound of the wire types
+constexpr std::size_t kMaxPersonLength = 60;  // leaves room for a number
 constexpr std::size_t kMaxPathLength = 1024;
 
 constexpr std::array<std::pair<std::string_view, WaitFor>, 3> kWaitForNames = {
@@ -61,6 +62,8 @@ GatewayConfig ReadGatewayConfig(const config::Section& section, GatewayConfig de
   constexpr auto kAnyNumber = std::numeric_limits<std::uint32_t>::max();
   config.gateway_id = section.Read("gateway_id", config.gateway_id, 0U, kAnyNumber);
   config.publish_roster = section.Read("publish_roster", config.publish_roster);
+  config.session_host = section.Read("session_host", config.session_host);
+  config.person = section.Read("person", config.person, kMaxPersonLength);
   config.publish_truth = section.Read("publish_truth", config.publish_truth);
   config.session = section.Read("session", config.session, kMaxNameLength);
   config.body_id = section.Read("body_id", config.body_id, 0U, kAnyNumber);
@@ -87,6 +90,10 @@ Status Validate(const GatewayConfig& config) {
   }
   if (config.session.size() > kMaxNameLength) {
     return Error{ErrorCode::kInvalidArgument, "gateway.session must have at most 64 characters"};
+  }
+  if (config.session_host && config.session.empty()) {
+    return Error{ErrorCode::kInvalidArgument,
+                 "gateway.session must name a session when gateway.session_host is true"};
   }
   return Ok();
 }

@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "common/base/ids.hpp"
 #include "common/base/result.hpp"
 #include "common/config/config_file.hpp"
 #include "services/gateway/stream_clock.hpp"
@@ -39,17 +41,30 @@ struct GatewayConfig {
   /// Number of this gateway in its frames, for a body whose sensors are on two gateways.
   std::uint32_t gateway_id = 0;
 
-  /// Publish who wears what. Off where a session host does.
+  /// Publish who wears what. With `session_host` that host does, whatever this says.
   bool publish_roster = true;
+
+  /// Join `session` through a session host, which gives the body ids and writes the roster. Nothing
+  /// is sent before it has.
+  bool session_host = false;
+
+  /// Name of the driver's person in place of the driver's own; several are numbered ("NAME 2"). At
+  /// most 60 characters.
+  std::string person;
 
   /// Publish what the driver knows of the truth.
   bool publish_truth = true;
 
-  /// Name of the session in the roster. At most 64 characters.
+  /// Name of the session in the roster; with `session_host` also its partition. At most 64
+  /// characters.
   std::string session;
 
   /// Number of the driver's first body; the others follow. 0: as the driver has them.
   std::uint32_t body_id = 0;
+
+  /// Body ids that a session host gave, one for each of the driver's bodies; not in files. Empty:
+  /// `body_id` decides.
+  std::vector<BodyId> granted_bodies;
 
   /// With "fusion" or "posture", nothing is sent until the way to that service is open. As fast as
   /// possible implies fusion.

@@ -47,7 +47,7 @@ Status GatewayService::Start() {
   if (Status announced = publisher_->Announce(source_.description()); !announced) {
     return announced;
   }
-  if (source_.description().bodies.empty() && config_.publish_roster) {
+  if (source_.description().bodies.empty() && config_.publish_roster && !config_.session_host) {
     spdlog::warn("{} says of no sensor where it is worn: fusion will not use them (see --assign)",
                  source_.description().source);
   }

@@ -1,6 +1,8 @@
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <cstdlib>
+#include <memory>
 #include <utility>
 
 #include "common/bus/bus_factory.hpp"
@@ -14,6 +16,7 @@
 #include "services/gateway/gateway_command_line.hpp"
 #include "services/gateway/gateway_config.hpp"
 #include "services/gateway/gateway_service.hpp"
+#include "services/gateway/gateway_session.hpp"
 
 int main(int argc, char** argv) {
   using namespace limbcast;
@@ -21,9 +24,9 @@ int main(int argc, char** argv) {
   if (const auto status = command.Parse(argc, argv)) return *status;
   const Result<config::ConfigFile> file = command.LoadSettings();
   if (!file) return command.Fail(file.error());
-  const gateway::GatewayConfig config = gateway::ReadGatewayConfig(file->Get("gateway"));
+  gateway::GatewayConfig config = gateway::ReadGatewayConfig(file->Get("gateway"));
   const gateway::DriverConfigs drivers = gateway::ReadDriverConfigs(*file);
-  const Result<bus::BusConfig> bus_config = command.ReadBus(*file);
+  Result<bus::BusConfig> bus_config = command.ReadBus(*file);
   if (const Status read = file->Finish(); !read) return command.Fail(read.error());
   if (!bus_config) return command.Fail(bus_config.error());
   if (const Status valid = gateway::Validate(config); !valid) return command.Fail(valid.error());
@@ -35,27 +38,37 @@ int main(int argc, char** argv) {
   const runtime::SystemClock clock;
   runtime::ThreadPool worker("gateway", 1);
   service::BusEvents events;
+  if (config.session_host) bus_config->partition = config.session;
   const Result<std::unique_ptr<bus::Bus>> bus = bus::Open(*bus_config, events.handler());
   if (!bus) return command.Fail(bus.error());
 
   auto calibrated = gateway::WithCalibrations(std::move(*driver), config.calibration_folder);
-  gateway::GatewayService service(config, std::move(calibrated), clock, **bus, worker,
-                                  [&] { stop_signal.Trigger(); });
-  if (const Status started = service.Start(); !started) return command.Fail(started.error());
+  const auto session = gateway::GatewaySession::Make(**bus, config, calibrated->Describe());
+  if (!session) return command.Fail(session.error());
+  std::unique_ptr<gateway::GatewayService> service;
+  std::atomic<bool> started{false};  // the service
   const auto health =
       service::HealthPublisher::Make("gateway", clock, **bus, [&](ServiceHealth& report) {
-        service.FillHealth(report);
+        (*session)->FillHealth(report);
+        if (started) service->FillHealth(report);
         events.Report(report);
       });
   if (!health) return command.Fail(health.error());
   spdlog::info("on {}; driver {}", (*bus)->Describe(), config.driver);
   (*health)->Start();
+  if (!(*session)->Wait([&] { return stop_signal.Requested(); })) return EXIT_SUCCESS;
+  config.granted_bodies = (*session)->bodies();
+
+  service = std::make_unique<gateway::GatewayService>(config, std::move(calibrated), clock, **bus,
+                                                      worker, [&] { stop_signal.Trigger(); });
+  if (const Status status = service->Start(); !status) return command.Fail(status.error());
+  started = true;
   stop_signal.Wait();
   (*health)->Stop();
-  service.Stop();
-  const gateway::GatewaySummary summary = service.Summary();
+  service->Stop();
+  const gateway::GatewaySummary summary = service->Summary();
   spdlog::info("{}", gateway::ToText(summary));
   command.PrintSummary(summary);
-  const Status result = service.result();
+  const Status result = service->result();
   return result ? EXIT_SUCCESS : command.Fail(result.error());
 }

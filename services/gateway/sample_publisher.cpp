@@ -25,7 +25,7 @@ std::uint32_t NextSequence(std::uint32_t& sequence) {
 SamplePublisher::SamplePublisher(const GatewayConfig& config, const DriverDescription& description,
                                  const Clock& clock)
     : marg_frame_(config.marg_frame),
-      publish_roster_(config.publish_roster),
+      publish_roster_(config.publish_roster && !config.session_host),
       publish_truth_(config.publish_truth),
       clock_(clock) {
   for (const sensing::SensorInfo& info : description.sensors) {

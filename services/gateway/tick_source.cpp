@@ -1,5 +1,6 @@
 #include "services/gateway/tick_source.hpp"
 
+#include <string>
 #include <utility>
 
 #include "common/base/expects.hpp"
@@ -18,12 +19,24 @@ Duration PeriodOf(const DriverDescription& description) {
 
 }  // namespace
 
+void Name(const std::string& person, std::vector<roster::RosterEntry>& bodies) {
+  for (std::size_t i = 0; i < bodies.size() && !person.empty(); ++i) {
+    bodies[i].person = i == 0 ? person : person + " " + std::to_string(i + 1);
+  }
+}
+
 TickSource::TickSource(std::unique_ptr<Driver> driver, const GatewayConfig& config)
     : driver_(std::move(driver)),
       description_(driver_->Describe()),
       loop_(config.loop),
       period_(PeriodOf(description_)),
       stream_clock_(config.pace) {
+  Expects(
+      config.granted_bodies.empty() || config.granted_bodies.size() == description_.bodies.size(),
+      "a granted body id for each body, or none");
+  for (std::size_t i = 0; i < config.granted_bodies.size(); ++i) {
+    granted_.emplace(description_.bodies[i].body_id, config.granted_bodies[i]);
+  }
   if (config.body_id != 0) {
     const std::uint32_t first =
         description_.bodies.empty() ? 1U : description_.bodies.front().body_id.value;
@@ -33,9 +46,13 @@ TickSource::TickSource(std::unique_ptr<Driver> driver, const GatewayConfig& conf
     entry.body_id = Renumbered(entry.body_id);
     entry.session = config.session;
   }
+  Name(config.person, description_.bodies);
 }
 
 BodyId TickSource::Renumbered(BodyId body) const {
+  if (const auto granted = granted_.find(body); granted != granted_.end()) {
+    return granted->second;
+  }
   return {static_cast<std::uint32_t>(std::int64_t{body.value} + body_id_offset_)};
 }
 

@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
 
 #include "common/base/result.hpp"
 #include "services/gateway/driver.hpp"
@@ -10,6 +13,9 @@
 #include "services/gateway/stream_clock.hpp"
 
 namespace limbcast::gateway {
+
+/// Puts gateway.person in place of the driver's names, unless it is empty.
+void Name(const std::string& person, std::vector<roster::RosterEntry>& bodies);
 
 /// A driver as the service uses it: loops joined, body ids and times as they go onto the network,
 /// and when each tick is due. One tick is loaded at a time. Thread-compatible except Interrupt.
@@ -54,6 +60,7 @@ class TickSource {
   const bool loop_;
   const Duration period_;
   std::int64_t body_id_offset_ = 0;
+  std::unordered_map<BodyId, BodyId> granted_;  // the driver's to the session host's
   StreamClock stream_clock_;
   Batch batch_;
   bool loaded_ = false;

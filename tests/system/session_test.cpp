@@ -5,7 +5,11 @@
 #include <signal.h>
 
 #include <chrono>
+#include <map>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/client/client.hpp"
 #include "common/client/session_directory.hpp"
@@ -95,6 +99,62 @@ TEST_P(SessionSystemTest, AKilledHostReturnsAndNothingHasChanged) {
   EXPECT_TRUE(Eventually(10s, [&] { return !(*guest)->Entry({1}); }));
   const process::ExitState ended = host.Stop(8s);
   EXPECT_TRUE(ended.clean()) << ended.status << ' ' << ended.signal << host.Errors();
+}
+
+TEST_P(SessionSystemTest, PeopleOfTwoSessionsWithTheSameNamesDoNotMix) {
+  auto host = StartHost();
+  std::vector<process::ChildProcess> services;
+  const auto start = [&](const std::string& program, const std::string& session,
+                         std::vector<std::string> more) {
+    std::vector<std::string> arguments = {Program(program), "--dds",       GetParam(), "--domain",
+                                          domain_,          "--partition", session};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    auto started = process::ChildProcess::Start({.arguments = arguments});
+    ASSERT_TRUE(started.ok());
+    services.push_back(std::move(*started));
+  };
+  const auto start_gateway = [&](const std::string& session, const std::string& seed) {
+    start("limbcast-gateway", session,
+          {"--set", "gateway.session_host=true", "--set", "gateway.session=" + session, "--set",
+           "gateway.person=Ada", "--set", "simulator.serial_prefix=sim" + seed});
+  };
+  std::map<std::string, std::unique_ptr<client::Client>> guests;
+  for (const std::string session : {"stage", "studio"}) {
+    ASSERT_EQ(Run({"create", session}).status, 0);
+    start_gateway(session, session == "stage" ? "1" : "2");
+    start("limbcast-fusion", session, {});
+    start("limbcast-posture", session, {});
+    client::ClientOptions options = As(roster::Role::kSpectator, "guest", 0);
+    options.session = session;
+    auto guest = client::Client::Connect(options);
+    ASSERT_TRUE(guest.ok()) << guest.error().message;
+    guests.emplace(session, std::move(*guest));
+  }
+  const auto moving_body = [&](const std::string& session) {
+    const std::vector<BodyId> bodies = guests[session]->Bodies();
+    return bodies.size() == 1 && guests[session]->Latest(bodies[0]) ? bodies[0] : BodyId{};
+  };
+  EXPECT_TRUE(Eventually(
+      20s, [&] { return moving_body("stage").value != 0 && moving_body("studio").value != 0; }))
+      << host.Errors() << services[0].Errors() << services[3].Errors();
+  const BodyId stage = moving_body("stage");
+  EXPECT_NE(stage, moving_body("studio"));
+  EXPECT_EQ(guests["stage"]->Entry(stage)->person, "Ada");
+  EXPECT_EQ(guests["studio"]->Entry(moving_body("studio"))->person, "Ada");
+
+  // The gateway is killed and started again: the same person, the same body.
+  services[0].Signal(SIGKILL);
+  (void)services[0].Stop(5s);
+  const auto before = guests["stage"]->Latest(stage)->measured_at;
+  start_gateway("stage", "1");
+  EXPECT_TRUE(Eventually(20s, [&] {
+    return guests["stage"]->Latest(stage)->measured_at > before + 1s;
+  })) << services.back().Errors();
+  EXPECT_EQ(guests["stage"]->Bodies(), std::vector<BodyId>{stage});
+  for (std::size_t i = 1; i < services.size(); ++i) {
+    const process::ExitState ended = services[i].Stop(8s);
+    EXPECT_TRUE(ended.clean()) << i << ": " << ended.status << ' ' << ended.signal;
+  }
 }
 
 TEST_P(SessionSystemTest, WithoutAHostEveryCommandSaysSoInTime) {

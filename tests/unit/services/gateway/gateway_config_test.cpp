@@ -32,7 +32,7 @@ TEST(GatewayConfigTest, EveryKeyIsRead) {
   const ReadBack read = Read(
       "driver = \"replay\"\nspeed = 2.5\nloop = true\nexit_at_end = true\nmarg_frame = true\n"
       "gateway_id = 7\ncalibration_folder = \"cal\"\npublish_roster = false\npublish_truth = "
-      "false\nsession = \"s\"\n"
+      "false\nsession = \"s\"\nsession_host = true\nperson = \"Ada\"\n"
       "body_id = 3\nwait_for = \"posture\"\nwait_timeout_s = 5\nwait_timeout_action = \"exit\"\n"
       "window_ticks = 4\nanswer_timeout_s = 0.5\nlinger_s = 0\n");
   ASSERT_TRUE(read.status.ok()) << read.status.error().message;
@@ -46,6 +46,12 @@ TEST(GatewayConfigTest, EveryKeyIsRead) {
   EXPECT_FALSE(read.config.publish_roster);
   EXPECT_FALSE(read.config.publish_truth);
   EXPECT_EQ(read.config.session, "s");
+  EXPECT_TRUE(read.config.session_host);
+  EXPECT_EQ(read.config.person, "Ada");
+  GatewayConfig nowhere;
+  nowhere.session_host = true;
+  EXPECT_EQ(Validate(nowhere).error().message,
+            "gateway.session must name a session when gateway.session_host is true");
   EXPECT_EQ(read.config.body_id, 3U);
   EXPECT_EQ(read.config.wait_for, WaitFor::kPosture);
   EXPECT_EQ(read.config.wait_timeout_s, 5.0);

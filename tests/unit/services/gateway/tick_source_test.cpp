@@ -57,6 +57,20 @@ TEST(TickSourceTest, TimesOfMarkersAndCoilPulsesMoveWithTheTick) {
   EXPECT_EQ(batch.coil_bursts[0].pulses[0].off_at, Time{});  // that coil has not pulsed yet
 }
 
+TEST(TickSourceTest, BodiesAreThoseThatTheSessionHostGave) {
+  auto driver = std::make_unique<test::FakeDriver>(1, 2);
+  driver->with_truth = true;
+  GatewayConfig config;
+  config.body_id = 9;
+  config.granted_bodies = {BodyId{77}};
+  config.person = "Ada";
+  TickSource source(std::move(driver), config);
+  EXPECT_EQ(source.description().bodies[0].body_id, BodyId{77});
+  EXPECT_EQ(source.description().bodies[0].person, "Ada");
+  ASSERT_EQ(*source.Load(kNow), DriverStep::kData);
+  EXPECT_EQ(source.Take(kNow).truth[0].body_id, BodyId{77});
+}
+
 TEST(TickSourceTest, LoopsAreJoinedWithOnePeriodBetween) {
   TickSource source(std::make_unique<test::FakeDriver>(1, 3), Looping());
   for (int tick = 0; tick < 7; ++tick) {
