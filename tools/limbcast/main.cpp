@@ -28,8 +28,7 @@ int main(int argc, char** argv) {
       tool::AddDemoCommand(line),      tool::AddTopCommand(line),      tool::AddRunCommand(line),
       tool::AddEchoCommand(line),      tool::AddEvaluateCommand(line), tool::AddSmoothCommand(line),
       tool::AddCalibrateCommand(line), tool::AddCoilCommand(line),     tool::AddExportCommand(line),
-      tool::AddBenchCommand(line),
-      tool::AddSessionCommand(line),
+      tool::AddBenchCommand(line),     tool::AddSessionCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   options.dds = argc > 1 ? argv[1] : "cyclone";
   if (argc > 2) options.domain_id = static_cast<std::uint32_t>(std::atoi(argv[2]));
   const int frames = argc > 3 ? std::atoi(argv[3]) : 300;
+  if (argc > 4) options.session = argv[4];  // as a spectator
 
   const auto connected = client::Client::Connect(options);
   if (!connected) {
