@@ -55,9 +55,13 @@ class Requester {
   }
 
   /// Waits until `until` for somebody who listens (discovery takes a moment, and a request that
-  /// nobody hears is gone), sends once, and waits for the answer. Fills in client_uid and
-  /// request_id. Fails with kUnavailable (nobody listens) or kTimeout (no answer).
-  [[nodiscard]] Result<Reply> Ask(Request request, Clock::time_point until) {
+  /// nobody hears is gone), sends, and waits for the answer. Fills in client_uid and request_id.
+  /// With `repeat` the request is sent again and again under its number until it is answered, for
+  /// those who do a repeated one only once (the session host): that we have found the others does
+  /// not mean that they have found us yet, and what comes before is lost on either way. Fails with
+  /// kUnavailable (nobody listens) or kTimeout (no answer).
+  [[nodiscard]] Result<Reply> Ask(Request request, Clock::time_point until, bool repeat = false) {
+    constexpr auto kRepeat = std::chrono::milliseconds(200);
     constexpr auto kLookAgain = std::chrono::milliseconds(20);  // matching wakes nobody
     std::unique_lock lock(mutex_);
     while (!heard()) {
@@ -69,16 +73,20 @@ class Requester {
     request.client_uid = client_uid_;
     request.request_id = ++requests_;
     const auto waiting = waiting_.try_emplace(request.request_id).first;
-    lock.unlock();
-    const Status written = writer_->Write(request);
-    writer_->Flush();
-    lock.lock();
-    if (!written) {
-      waiting_.erase(waiting);
-      return written.error();
-    }
-    const bool answered =
-        answered_.wait_until(lock, until, [&] { return waiting->second.has_value(); });
+    bool answered = false;
+    do {
+      lock.unlock();
+      const Status written = writer_->Write(request);
+      writer_->Flush();
+      lock.lock();
+      if (!written) {
+        waiting_.erase(waiting);
+        return written.error();
+      }
+      answered =
+          answered_.wait_until(lock, repeat ? std::min(until, Clock::now() + kRepeat) : until,
+                               [&] { return waiting->second.has_value(); });
+    } while (!answered && Clock::now() < until);
     const auto node = waiting_.extract(waiting);
     if (!answered) {
       return Error{ErrorCode::kTimeout, "no answer"};

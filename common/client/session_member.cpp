@@ -135,7 +135,7 @@ Result<roster::CommandReply> SessionMember::Ask(roster::CommandKind kind, const 
   roster::Command command;
   command.kind = kind;
   command.text = text;
-  return commands_->Ask(std::move(command), std::chrono::steady_clock::now() + timeout);
+  return commands_->Ask(std::move(command), std::chrono::steady_clock::now() + timeout, true);
 }
 
 void SessionMember::Leave() {

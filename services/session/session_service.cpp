@@ -158,6 +158,10 @@ void SessionService::Handle(const Request& request, Time now) {
     return;
   }
   const auto& command = std::get<roster::Command>(request.what);
+  if (const roster::CommandReply* before = answered_.Find(command)) {
+    Answer({request.session, *before}, before->accepted, now);
+    return;
+  }
   roster::CommandReply reply;
   reply.client_uid = command.client_uid;
   reply.request_id = command.request_id;
@@ -171,6 +175,7 @@ void SessionService::Handle(const Request& request, Time now) {
   }
   reply.accepted = done.ok();
   reply.message = done ? "done" : done.error().message;
+  answered_.Add(reply);
   Answer({request.session, std::move(reply)}, done.ok(), now);
 }
 

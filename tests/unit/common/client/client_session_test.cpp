@@ -104,6 +104,7 @@ TEST_F(ClientSessionTest, ARestartOfTheHostIsNotNoticed) {
   const auto bob = Client::Attach(*bus_, clock_, Performer("Bob", 12));
   ASSERT_TRUE(bob.ok()) << bob.error().message;
   EXPECT_EQ((*bob)->Standing().body_id.value, 2U);
+  ASSERT_TRUE(Eventually([&] { return (*bob)->Entry({1}).has_value(); }));
   EXPECT_EQ((*bob)->Entry({1})->person, "Ada");
   EXPECT_EQ(changes, 0);
   (*ada)->OnStanding({});

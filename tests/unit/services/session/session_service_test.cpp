@@ -58,7 +58,11 @@ class Peer {
     none.message = "no answer";
     return joined.value_or(none);
   }
-  roster::CommandReply Ask(const roster::Command& command) {
+  roster::CommandReply Ask(roster::Command command) {
+    command.request_id = ++asked_;
+    return Repeat(command);
+  }
+  roster::CommandReply Repeat(const roster::Command& command) {
     done.reset();
     EXPECT_TRUE(commands_->Write(command).ok());
     roster::CommandReply none;
@@ -73,6 +77,7 @@ class Peer {
   std::size_t heard = 0;  // roster entries
 
  private:
+  std::uint64_t asked_ = 0;
   std::map<std::uint32_t, std::string> names_;
   std::unique_ptr<bus::Bus> bus_;
   std::unique_ptr<bus::Writer<roster::JoinRequest>> requests_;
@@ -161,6 +166,18 @@ TEST_F(SessionServiceTest, SessionsAreListedCreatedAndClosed) {
   join.request_id = 2;
   EXPECT_TRUE(member.Join(join).accepted) << "the new one of that name";
   EXPECT_THAT(member.sessions, ElementsAre(Pair("studio", 0U)));
+}
+
+TEST_F(SessionServiceTest, ARepeatedRequestIsAnsweredAgainAndNotDoneAgain) {
+  Start();
+  Peer lobby(hub_, "");
+  roster::Command create = Command(9, CommandKind::kCreateSession, "studio");
+  create.request_id = 41;
+  EXPECT_TRUE(lobby.Repeat(create).accepted);
+  EXPECT_TRUE(lobby.Repeat(create).accepted);
+  create.request_id = 42;
+  EXPECT_FALSE(lobby.Repeat(create).accepted) << "another request of the same words";
+  EXPECT_THAT(lobby.Repeat(create).message, HasSubstr("already"));
 }
 
 TEST_F(SessionServiceTest, WithoutAllowCreateThereAreThoseOfTheConfiguration) {
