@@ -38,4 +38,16 @@ Status WriteDurably(const std::filesystem::path& path, const std::string& text) 
   return status;
 }
 
+Status PrepareFolder(const std::filesystem::path& folder, std::string_view setting) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder) || ::access(folder.c_str(), W_OK | X_OK) != 0) {
+    return Error{ErrorCode::kUnavailable,
+                 std::string(setting) + " must be a writable folder, is \"" + folder.string() +
+                     "\" (" + (error ? error.message() : std::generic_category().message(errno)) +
+                     ")"};
+  }
+  return Ok();
+}
+
 }  // namespace limbcast::config

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "common/base/result.hpp"
 
@@ -11,5 +12,9 @@ namespace limbcast::config {
 /// survives a loss of power. Fails with kUnavailable naming the file and the reason; what is left
 /// of the file then is anything.
 [[nodiscard]] Status WriteDurably(const std::filesystem::path& path, const std::string& text);
+
+/// Makes the folder that a setting names, if need be. Fails with kUnavailable naming setting,
+/// folder and reason when it is none that can be written to.
+[[nodiscard]] Status PrepareFolder(const std::filesystem::path& folder, std::string_view setting);
 
 }  // namespace limbcast::config

@@ -14,6 +14,7 @@
 
 #include "common/config/config_file.hpp"
 #include "common/config/durable_file.hpp"
+#include "common/config/toml_text.hpp"
 
 namespace limbcast::gateway {
 
@@ -29,16 +30,6 @@ std::string DateText(Time time) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc);
 }
 
-// Text as TOML writes it; control characters cannot be in a serial that a driver gave.
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c == '"' || c == '\\' ? "\\" : "";
-    quoted += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-  }
-  return quoted + '"';
-}
-
 void Add(std::string& toml, const char* name, const char* unit, const char* residual_unit,
          const std::optional<sensing::TriadFit>& fit) {
   if (!fit) {
@@ -51,8 +42,8 @@ void Add(std::string& toml, const char* name, const char* unit, const char* resi
       "matrix = [{}, {}, {}, {}, {}, {}, {}, {}, {}]  # by rows\noffset_{} = [{}, {}, {}]\n"
       "residual_before{} = {}\nresidual_after{} = {}\nsigma_scale = {}\nsigma_offset = {}\n"
       "coverage = {}\npoints = {}\n",
-      name, Quoted(fit->method), sensing::ToText(sensing::GradeOf(*fit)), M(0, 0), M(0, 1), M(0, 2),
-      M(1, 0), M(1, 1), M(1, 2), M(2, 0), M(2, 1), M(2, 2), unit, b.x(), b.y(), b.z(),
+      name, config::Quoted(fit->method), sensing::ToText(sensing::GradeOf(*fit)), M(0, 0), M(0, 1),
+      M(0, 2), M(1, 0), M(1, 1), M(1, 2), M(2, 0), M(2, 1), M(2, 2), unit, b.x(), b.y(), b.z(),
       residual_unit, fit->residual_before, residual_unit, fit->residual_after, fit->sigma_scale,
       fit->sigma_offset, fit->coverage, fit->points);
 }
@@ -126,7 +117,7 @@ std::string CalibrationToToml(const sensing::SensorCalibration& calibration) {
       "and "
       "mag: fraction of the length.\n\n[sensor]\nformat = 1\nserial = {}\ndate = \"{}\"\n"
       "calibrated_at_ns = {}\n",
-      Quoted(calibration.serial), DateText(calibration.calibrated_at),
+      config::Quoted(calibration.serial), DateText(calibration.calibrated_at),
       ToNanoseconds(calibration.calibrated_at));
   if (std::isfinite(calibration.temperature_celsius)) {
     toml += fmt::format("temperature_celsius = {}\n", calibration.temperature_celsius);

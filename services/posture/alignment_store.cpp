@@ -1,11 +1,8 @@
 #include "services/posture/alignment_store.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <system_error>
@@ -13,6 +10,7 @@
 #include "common/body/default_body.hpp"
 #include "common/config/config_file.hpp"
 #include "common/config/durable_file.hpp"
+#include "common/config/toml_text.hpp"
 
 namespace limbcast::posture {
 namespace {
@@ -55,12 +53,7 @@ Eigen::Vector3d ReadVector(const config::Section& section, const char* key) {
 }
 
 void ReadSegment(const config::Section& section, body::SegmentDefinition& segment) {
-  const std::string uid = section.Read("sensor_uid", "", 16);
-  const auto parsed =
-      std::from_chars(uid.data(), uid.data() + uid.size(), segment.sensor_uid.value, 16);
-  if (uid.size() != 16 || parsed.ptr != uid.data() + uid.size()) {
-    section.Fail("sensor_uid", fmt::format("must be 16 hexadecimal digits, is \"{}\"", uid));
-  }
+  segment.sensor_uid.value = config::ReadHex64(section, "sensor_uid");
   segment.aligned = section.Read("aligned", false);
   const std::vector<double> q = section.ReadNumbers("q_sensor_segment", {1, 0, 0, 0}, -1.0, 1.0, 4);
   if (q.size() == 4) {
@@ -141,18 +134,7 @@ fs::path AlignmentStore::PathOf(BodyId body_id) const {
 }
 
 Status AlignmentStore::Prepare() const {
-  if (folder_.empty()) {
-    return Ok();
-  }
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (!fs::is_directory(folder_) || ::access(folder_.c_str(), W_OK | X_OK) != 0) {
-    return Error{
-        ErrorCode::kUnavailable,
-        fmt::format("posture.state_dir must be a writable folder, is \"{}\" ({})", folder_.string(),
-                    error ? error.message() : std::generic_category().message(errno))};
-  }
-  return Ok();
+  return folder_.empty() ? Ok() : config::PrepareFolder(folder_, "posture.state_dir");
 }
 
 Status AlignmentStore::Save(const body::BodyDefinition& definition) const {

@@ -1,9 +1,7 @@
 #include "services/session/session_store.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <charconv>
 #include <fstream>
 #include <iterator>
@@ -14,6 +12,7 @@
 
 #include "common/config/config_file.hpp"
 #include "common/config/durable_file.hpp"
+#include "common/config/toml_text.hpp"
 
 namespace limbcast::session {
 namespace {
@@ -24,28 +23,7 @@ constexpr int kVersion = 1;
 constexpr auto kAnyNumber = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kMaxName = 64;
 
-std::string Quoted(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-    }
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
 Error Corrupt(std::string message) { return Error{ErrorCode::kCorruptData, std::move(message)}; }
-
-std::uint64_t ReadHex(const config::Section& section, std::string_view key) {
-  const std::string text = section.Read(key, "", 16);
-  std::uint64_t value = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value, 16);
-  if (text.size() != 16 || parsed.ptr != text.data() + text.size()) {
-    section.Fail(key, fmt::format("must be 16 hexadecimal digits, is \"{}\"", text));
-  }
-  return value;
-}
 
 Time ReadTime(const config::Section& section, std::string_view key) {
   return TimeFromNanoseconds(section.Read(key, std::int64_t{0},
@@ -78,7 +56,7 @@ KnownPerson ReadPerson(const config::Section& section) {
   KnownPerson person;
   person.person = section.Read("name", "", kMaxName);
   person.body_id = {section.Read("body_id", 0U, 0U, kAnyNumber)};
-  person.client_uid = ReadHex(section, "client_uid");
+  person.client_uid = config::ReadHex64(section, "client_uid");
   person.revision = section.Read("revision", 0U, 0U, kAnyNumber);
   person.coil_slot = section.Read("coil_slot", 0U, 0U, kAnyNumber);
   person.here = section.Read("here", false);
@@ -105,14 +83,14 @@ std::string ToToml(const SessionSnapshot& snapshot) {
   std::size_t people = 0;
   for (const KnownSession& session : snapshot.sessions) {
     text += fmt::format("\n[[session]]\nname = {}\nid = {}\nrevision = {}\ncreated_at_ns = {}\n",
-                        Quoted(session.name), session.session_id, session.revision,
+                        config::Quoted(session.name), session.session_id, session.revision,
                         ToNanoseconds(session.created_at));
     for (const KnownPerson& person : session.people) {
       ++people;
       text += fmt::format(
           "\n[[session.person]]\nname = {}\nbody_id = {}\nclient_uid = \"{:016x}\"\n"
           "revision = {}\ncoil_slot = {}\nhere = {}\nleft_at_ns = {}\nsensors = [",
-          Quoted(person.person), person.body_id.value, person.client_uid, person.revision,
+          config::Quoted(person.person), person.body_id.value, person.client_uid, person.revision,
           person.coil_slot, person.here, ToNanoseconds(person.left_at));
       for (const roster::SensorAssignment& sensor : person.sensors) {
         text += fmt::format("\"{} {:016x}\", ", body::ToString(sensor.segment),
@@ -164,18 +142,7 @@ Result<SessionSnapshot> FromToml(const std::string& text, const std::string& nam
 }
 
 Status SessionStore::Prepare() const {
-  if (folder_.empty()) {
-    return Ok();
-  }
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (!fs::is_directory(folder_) || ::access(folder_.c_str(), W_OK | X_OK) != 0) {
-    return Error{
-        ErrorCode::kUnavailable,
-        fmt::format("session.state_dir must be a writable folder, is \"{}\" ({})", folder_.string(),
-                    error ? error.message() : std::generic_category().message(errno))};
-  }
-  return Ok();
+  return folder_.empty() ? Ok() : config::PrepareFolder(folder_, "session.state_dir");
 }
 
 Status SessionStore::Save(const SessionSnapshot& snapshot) {

@@ -57,22 +57,36 @@ Result<roster::SensorAssignment> ParseWear(const std::string& text) {
       .segment = *segment};
 }
 
-int List(const service::ServiceCommandLine& line, const SessionOptions& options) {
-  const auto bus = OpenLiveBus(line);
+// The directory of sessions on a network of its own.
+struct OpenDirectory {
+  std::unique_ptr<bus::Bus> bus;  // outlives the directory
+  std::unique_ptr<client::SessionDirectory> directory;
+};
+
+Result<OpenDirectory> Open(const service::ServiceCommandLine& line) {
+  auto bus = OpenLiveBus(line);
   if (!bus) {
-    return line.Fail(bus.error());
+    return bus.error();
   }
-  const auto directory = client::SessionDirectory::Attach(**bus);
+  auto directory = client::SessionDirectory::Attach(**bus);
   if (!directory) {
-    return line.Fail(directory.error());
+    return directory.error();
   }
-  if (const Status host = (*directory)->WaitForHost(DurationFromSeconds(options.timeout_s));
+  return OpenDirectory{std::move(*bus), std::move(*directory)};
+}
+
+int List(const service::ServiceCommandLine& line, const SessionOptions& options) {
+  const auto open = Open(line);
+  if (!open) {
+    return line.Fail(open.error());
+  }
+  if (const Status host = open->directory->WaitForHost(DurationFromSeconds(options.timeout_s));
       !host) {
     return line.Fail(host.error());
   }
   runtime::StopSignal().WaitFor(DurationFromSeconds(0.3));  // what is known comes after the match
   fmt::print("{:24} {:>6} {:>10}\n", "session", "people", "joinable");
-  for (const roster::SessionState& session : (*directory)->Sessions()) {
+  for (const roster::SessionState& session : open->directory->Sessions()) {
     fmt::print("{:24} {:6} {:>10}\n", session.name, session.performer_count,
                session.open ? "yes" : "full");
   }
@@ -80,16 +94,12 @@ int List(const service::ServiceCommandLine& line, const SessionOptions& options)
 }
 
 int Create(const service::ServiceCommandLine& line, const SessionOptions& options) {
-  const auto bus = OpenLiveBus(line);
-  if (!bus) {
-    return line.Fail(bus.error());
-  }
-  const auto directory = client::SessionDirectory::Attach(**bus);
-  if (!directory) {
-    return line.Fail(directory.error());
+  const auto open = Open(line);
+  if (!open) {
+    return line.Fail(open.error());
   }
   const Status created =
-      (*directory)->Create(options.session, DurationFromSeconds(options.timeout_s));
+      open->directory->Create(options.session, DurationFromSeconds(options.timeout_s));
   return created ? 0 : line.Fail(created.error());
 }
 

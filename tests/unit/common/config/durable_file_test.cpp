@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace limbcast::config {
 namespace {
 
@@ -31,6 +33,19 @@ TEST(DurableFileTest, AFullDiskIsToldAndNotFilledSilently) {
   const Status refused = WriteDurably("/dev/full", "x");
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().message, "write /dev/full: No space left on device");
+}
+
+TEST(DurableFileTest, AFolderIsMadeOrTheSettingThatNamesItRefused) {
+  const test_support::TemporaryFolder folder;
+  EXPECT_TRUE(PrepareFolder(folder / "a/b", "x.state_dir").ok());
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b"));
+  EXPECT_TRUE(PrepareFolder(folder / "a/b", "x.state_dir").ok()) << "is there already";
+  const Status refused = PrepareFolder("/proc/no/such", "x.state_dir");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::kUnavailable);
+  EXPECT_EQ(
+      refused.error().message,
+      "x.state_dir must be a writable folder, is \"/proc/no/such\" (No such file or directory)");
 }
 
 }  // namespace
