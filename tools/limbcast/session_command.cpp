@@ -205,8 +205,8 @@ SubCommand AddSessionCommand(service::ServiceCommandLine& line) {
   join->add_option("--seconds", options->seconds, "How long; 0 = until Ctrl-C");
   CLI::App* leave = named("leave", "Send a person away, as an operator");
   leave->add_option("person", options->person, "Who")->required();
-  CLI::App* close = named("close", "End a session for everybody, as an operator");
-  return {.app = app, .run = [&line, options, list, create, join, leave, close] {
+  named("close", "End a session for everybody, as an operator");
+  return {.app = app, .run = [&line, options, list, create, join, leave] {
             return list->parsed()     ? List(line, *options)
                    : create->parsed() ? Create(line, *options)
                    : join->parsed()   ? Join(line, *options)
