@@ -23,6 +23,12 @@ class SystemClock final : public Clock {
   }
 };
 
+SessionStanding StandingOf(const MemberStatus& status) {
+  return {.member = status.state == MemberState::kMember,
+          .body_id = status.body_id,
+          .message = status.message};
+}
+
 Status Validate(const ClientOptions& options) {
   if (options.history < 2 || options.history > 4096) {
     return Error{ErrorCode::kInvalidArgument, "client history must be in [2, 4096] skeletons, is " +
@@ -72,8 +78,7 @@ class Client::Impl {
     return entry == roster_.end() ? std::nullopt : std::optional(entry->second);
   }
   [[nodiscard]] SessionStanding Standing() const {
-    const std::scoped_lock lock(mutex_);
-    return standing_;
+    return member_ == nullptr ? SessionStanding() : StandingOf(member_->status(0));
   }
   Status AskHost(roster::CommandKind kind, const std::string& text, Duration timeout);
   Result<roster::CommandReply> Send(roster::Command command, Duration timeout);
@@ -108,7 +113,6 @@ class Client::Impl {
   std::condition_variable changed_;
   std::map<BodyId, Person> people_;
   std::map<BodyId, roster::RosterEntry> roster_;
-  SessionStanding standing_;
 
   std::unique_ptr<bus::Bus> own_bus_;  // outlives the endpoints, which are declared after it
   bus::Bus* bus_ = nullptr;
@@ -159,7 +163,6 @@ Status Client::Impl::Join(bus::Bus& bus) {
 }
 
 Status Client::Impl::JoinSession(bus::Bus& bus) {
-  standing_.member = false;
   auto member = SessionMember::Make(
       bus, options_.session,
       {{.role = options_.role, .person = options_.person, .sensors = options_.sensors}},
@@ -173,16 +176,9 @@ Status Client::Impl::JoinSession(bus::Bus& bus) {
 }
 
 void Client::Impl::Take(const MemberStatus& status) {
-  const SessionStanding standing{.member = status.state == MemberState::kMember,
-                                 .body_id = status.body_id,
-                                 .message = status.message};
-  {
-    const std::scoped_lock lock(mutex_);
-    standing_ = standing;
-  }
   const std::scoped_lock lock(callback_mutex_);
   if (on_standing_) {
-    on_standing_(standing);
+    on_standing_(StandingOf(status));
   }
 }
 

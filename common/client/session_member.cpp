@@ -94,14 +94,17 @@ void SessionMember::Take(const roster::JoinReply& reply) {
                       .body_id = reply.accepted ? reply.body_id : member->status.body_id,
                       .message = reply.accepted ? std::string() : reply.message};
   member->ticks_to_wait = reply.accepted ? 0 : kTicksAfterRefusal - 1;
-  const bool news = !(member->status == status);
+  const bool tell = on_change_ && !(member->status == status);
   member->status = status;
   const auto index = static_cast<std::size_t>(member - members_.begin());
-  changed_.notify_all();
-  lock.unlock();
-  if (news && on_change_) {
+  if (tell) {
+    telling_ = true;  // replies come one at a time
+    lock.unlock();
     on_change_(index, status);
+    lock.lock();
+    telling_ = false;
   }
+  changed_.notify_all();
 }
 
 Status SessionMember::WaitUntilJoined(Duration timeout) {
@@ -111,8 +114,9 @@ Status SessionMember::WaitUntilJoined(Duration timeout) {
                         [&](const Member& m) { return m.status.state == state; });
   };
   const bool joined = changed_.wait_for(lock, timeout, [&] {
-    return std::all_of(members_.begin(), members_.end(),
-                       [](const Member& m) { return m.status.state == MemberState::kMember; });
+    return !telling_ && std::all_of(members_.begin(), members_.end(), [](const Member& m) {
+      return m.status.state == MemberState::kMember;
+    });
   });
   if (joined) {
     return Ok();

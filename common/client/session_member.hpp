@@ -62,10 +62,10 @@ class SessionMember {
   /// To be called every roster::kRenewPeriod.
   void Tick();
 
-  /// Waits until all memberships are accepted; a refusal may pass (a person is free two seconds
-  /// after the client that carried it was killed), so it is waited for as well. Fails with
-  /// kUnavailable (still refused, with the host's reason) or kTimeout (no host answers); asking
-  /// goes on then.
+  /// Waits until all memberships are accepted and OnChange has been told so; a refusal may pass (a
+  /// person is free two seconds after the client that carried it was killed), so it is waited for
+  /// as well. Fails with kUnavailable (still refused, with the host's reason) or kTimeout (no host
+  /// answers); asking goes on then.
   [[nodiscard]] Status WaitUntilJoined(Duration timeout);
 
   [[nodiscard]] MemberStatus status(std::size_t index) const;
@@ -90,7 +90,8 @@ class SessionMember {
   const std::uint64_t client_uid_ = DrawClientUid();
   const std::string session_;
   const OnChange on_change_;
-  mutable std::mutex mutex_;  // guards the next three
+  mutable std::mutex mutex_;  // guards the next four
+  bool telling_ = false;      // inside on_change_
   std::condition_variable changed_;
   std::vector<Member> members_;
   std::uint64_t requests_ = 0;

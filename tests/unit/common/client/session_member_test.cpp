@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <future>
+#include <thread>
 #include <utility>
 
 #include "common/bus/inproc/inproc_bus.hpp"
@@ -190,6 +192,24 @@ TEST_F(SessionMemberTest, AsksByItselfOnceStarted) {
   EXPECT_TRUE(member->WaitUntilJoined(10s).ok());
   EXPECT_EQ(member->Ask(roster::CommandKind::kReleasePerson, "Bob", 10s)->message, "done");
   EXPECT_EQ(heard_commands_[0].text, "Bob");
+}
+
+TEST_F(SessionMemberTest, WhoHasWaitedFindsThatTheChangeHasBeenTold) {
+  StartHost();
+  std::promise<void> entered;
+  std::promise<void> released;
+  auto made = SessionMember::Make(*bus_, "stage", {Ada()}, [&](std::size_t, const MemberStatus&) {
+    entered.set_value();
+    released.get_future().wait();
+  });
+  ASSERT_TRUE(made.ok());
+  std::thread network([&] { (*made)->Tick(); });  // the answer comes on the asking thread here
+  entered.get_future().wait();
+  EXPECT_EQ((*made)->status(0).state, MemberState::kMember);
+  EXPECT_FALSE((*made)->WaitUntilJoined(0s).ok());
+  released.set_value();
+  EXPECT_TRUE((*made)->WaitUntilJoined(10s).ok());
+  network.join();
 }
 
 }  // namespace
