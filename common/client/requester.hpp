@@ -56,11 +56,11 @@ class Requester {
 
   /// Waits until `until` for somebody who listens (discovery takes a moment, and a request that
   /// nobody hears is gone), sends, and waits for the answer. Fills in client_uid and request_id.
-  /// With `repeat` the request is sent again and again under its number until it is answered, for
-  /// those who do a repeated one only once (the session host): that we have found the others does
-  /// not mean that they have found us yet, and what comes before is lost on either way. Fails with
-  /// kUnavailable (nobody listens) or kTimeout (no answer).
-  [[nodiscard]] Result<Reply> Ask(Request request, Clock::time_point until, bool repeat = false) {
+  /// The request is sent again and again under its number until it is answered, and every service
+  /// does it once (roster::AnsweredCommands): that we have found the others does not mean that they
+  /// have found us yet, and what comes before is lost on either way. Fails with kUnavailable
+  /// (nobody listens) or kTimeout (no answer).
+  [[nodiscard]] Result<Reply> Ask(Request request, Clock::time_point until) {
     constexpr auto kRepeat = std::chrono::milliseconds(200);
     constexpr auto kLookAgain = std::chrono::milliseconds(20);  // matching wakes nobody
     std::unique_lock lock(mutex_);
@@ -83,9 +83,8 @@ class Requester {
         waiting_.erase(waiting);
         return written.error();
       }
-      answered =
-          answered_.wait_until(lock, repeat ? std::min(until, Clock::now() + kRepeat) : until,
-                               [&] { return waiting->second.has_value(); });
+      answered = answered_.wait_until(lock, std::min(until, Clock::now() + kRepeat),
+                                      [&] { return waiting->second.has_value(); });
     } while (!answered && Clock::now() < until);
     const auto node = waiting_.extract(waiting);
     if (!answered) {

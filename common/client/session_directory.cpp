@@ -74,7 +74,7 @@ class SessionDirectory::Impl {
     command.kind = roster::CommandKind::kCreateSession;
     command.text = name;
     const auto reply =
-        commands_->Ask(std::move(command), std::chrono::steady_clock::now() + timeout, true);
+        commands_->Ask(std::move(command), std::chrono::steady_clock::now() + timeout);
     if (!reply) {
       return Error{reply.error().code, "session \"" + name + "\": " + reply.error().message};
     }

@@ -139,7 +139,7 @@ Result<roster::CommandReply> SessionMember::Ask(roster::CommandKind kind, const 
   roster::Command command;
   command.kind = kind;
   command.text = text;
-  return commands_->Ask(std::move(command), std::chrono::steady_clock::now() + timeout, true);
+  return commands_->Ask(std::move(command), std::chrono::steady_clock::now() + timeout);
 }
 
 void SessionMember::Leave() {

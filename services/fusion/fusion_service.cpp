@@ -202,6 +202,10 @@ void FusionService::OnCommand(const roster::Command& command) {
   if (command.kind != roster::CommandKind::kSelectFilter) {
     return;  // for another service
   }
+  if (const roster::CommandReply* before = answered_.Find(command)) {
+    Answer(*before);  // the answer was lost, or is under way
+    return;
+  }
   std::uint64_t touched = 0;
   const Result<std::string> done = SelectFilter(command, touched);
   Wake(touched);
@@ -211,6 +215,11 @@ void FusionService::OnCommand(const roster::Command& command) {
   reply.accepted = done.ok();
   reply.message = done.ok() ? *done : done.error().message;
   reply.message.resize(std::min(reply.message.size(), kMaxReplyLength));
+  answered_.Add(reply);
+  Answer(reply);
+}
+
+void FusionService::Answer(const roster::CommandReply& reply) {
   if (const Status written = reply_writer_->Write(reply); !written) {
     SetLastError(written.error().message);
   }

@@ -12,6 +12,7 @@
 #include "common/base/health.hpp"
 #include "common/base/result.hpp"
 #include "common/bus/bus.hpp"
+#include "common/roster/answered_commands.hpp"
 #include "common/runtime/worker_pool.hpp"
 #include "services/fusion/fusion_config.hpp"
 #include "services/fusion/fusion_counters.hpp"
@@ -61,6 +62,7 @@ class FusionService {
   template <typename Sample>
   [[nodiscard]] std::uint64_t Take(const Sample& sample, Time received_at);
   void OnCommand(const roster::Command& command);
+  void Answer(const roster::CommandReply& reply);
   [[nodiscard]] Result<std::string> SelectFilter(const roster::Command& command,
                                                  std::uint64_t& touched);
   [[nodiscard]] std::uint64_t HandOver(std::vector<BodyPlan> plans);
@@ -81,6 +83,8 @@ class FusionService {
   CounterCells intake_counters_;
   std::unordered_set<SensorUid> announced_;  // by sensor_info
   std::string last_error_;
+
+  roster::AnsweredCommands answered_;  // by the one command reader, which calls one at a time
 
   mutable std::mutex endpoints_mutex_;  // Stop takes the readers while FillHealth looks at them
   bool started_ = false;

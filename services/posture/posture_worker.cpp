@@ -167,6 +167,10 @@ void PostureWorker::Handle(const Gone& gone) {
 }
 
 void PostureWorker::Handle(const std::shared_ptr<const roster::Command>& command) {
+  if (const roster::CommandReply* before = answered_.Find(*command)) {
+    Answer(*before);  // the answer was lost, or is under way
+    return;
+  }
   Body* body = Find(command->body_id);
   CommandOutcome outcome;
   if (body == nullptr || !body->present) {
@@ -183,10 +187,16 @@ void PostureWorker::Handle(const std::shared_ptr<const roster::Command>& command
     }
   }
   shared_.counters.Add(outcome.accepted ? Count::kCommandsAccepted : Count::kCommandsRefused);
-  Check(shared_.replies.Write({.client_uid = command->client_uid,
-                               .request_id = command->request_id,
-                               .accepted = outcome.accepted,
-                               .message = outcome.message}));
+  const roster::CommandReply reply{.client_uid = command->client_uid,
+                                   .request_id = command->request_id,
+                                   .accepted = outcome.accepted,
+                                   .message = outcome.message};
+  answered_.Add(reply);
+  Answer(reply);
+}
+
+void PostureWorker::Answer(const roster::CommandReply& reply) {
+  Check(shared_.replies.Write(reply));
   shared_.replies.Flush();
 }
 

@@ -14,6 +14,7 @@
 #include "common/body/joint_angle_frame.hpp"
 #include "common/body/skeleton.hpp"
 #include "common/bus/writer.hpp"
+#include "common/roster/answered_commands.hpp"
 #include "common/roster/command.hpp"
 #include "common/roster/roster.hpp"
 #include "common/runtime/bounded_queue.hpp"
@@ -102,6 +103,7 @@ class PostureWorker {
   void AdoptPublished(Body& body);
   /// For this body, and as the profile of its person. False: not on the disk.
   bool Save(const Body& body);
+  void Answer(const roster::CommandReply& reply);
   void Publish(body::Skeleton& skeleton, TickEnd end, bool live);
   void PublishJointAngles(const body::Skeleton& skeleton);
   void PublishDefinition(Body& body);
@@ -115,6 +117,7 @@ class PostureWorker {
   body::JointAngleFrame angles_;  // reused
   std::unordered_map<BodyId, Body> bodies_;
   std::unordered_map<BodyId, std::shared_ptr<const body::BodyDefinition>> published_;  // the last
+  roster::AnsweredCommands answered_;
   std::optional<Time> earliest_due_;  // no body is due before; it may have become later
   bool to_flush_ = false;
   std::atomic<std::size_t> body_count_{0};

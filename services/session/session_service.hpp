@@ -19,7 +19,6 @@
 #include "common/bus/bus.hpp"
 #include "common/runtime/bounded_queue.hpp"
 #include "common/runtime/worker_pool.hpp"
-#include "services/session/answered_commands.hpp"
 #include "services/session/session_config.hpp"
 #include "services/session/session_registry.hpp"
 #include "services/session/session_room.hpp"
@@ -115,7 +114,7 @@ class SessionService {
   SessionRegistry registry_;
   std::map<std::string, Room> rooms_;
   std::vector<Reply> replies_;
-  AnsweredCommands answered_;
+  roster::AnsweredCommands answered_;
   double refusals_left_;
   Time refusals_at_{};
   bool unsaved_ = false;

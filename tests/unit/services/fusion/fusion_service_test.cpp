@@ -194,6 +194,7 @@ TEST_F(FusionServiceTest, ACommandSelectsAFilterAndIsAnswered) {
   world.Send(world.Sample(11, 1));
   EXPECT_EQ(world.last().filter, "tqt");
 
+  command.request_id = 7;
   command.text = "beside slow";
   command.numbers.clear();
   command.body_id = BodyId{0};
@@ -201,6 +202,7 @@ TEST_F(FusionServiceTest, ACommandSelectsAFilterAndIsAnswered) {
   world.Send(world.Sample(11, 2));
   EXPECT_EQ(world.last().slot, 1);
   EXPECT_EQ(world.last().filter, "slow");
+  command.request_id = 8;
   command.text = "beside none";
   EXPECT_TRUE(world.command->Write(command).ok());
   EXPECT_THAT(world.disposed, Contains(Pair(body::Segment::kPelvis, 1)));
@@ -208,15 +210,37 @@ TEST_F(FusionServiceTest, ACommandSelectsAFilterAndIsAnswered) {
   EXPECT_EQ(world.last().slot, 0);
 }
 
+TEST_F(FusionServiceTest, ARepeatedCommandIsAnsweredAgainAndDoneOnce) {
+  world.Assign(1, {{10, body::Segment::kHead}});
+  roster::Command command;
+  command.client_uid = 5;
+  command.request_id = 6;
+  command.body_id = BodyId{1};
+  command.kind = roster::CommandKind::kSelectFilter;
+  command.text = "slow";
+  EXPECT_TRUE(world.command->Write(command).ok());
+  // Under the same number it is the same request, whatever else is in it.
+  command.text = "tqt";
+  EXPECT_TRUE(world.command->Write(command).ok());
+  ASSERT_EQ(world.replies.size(), 2U);
+  EXPECT_EQ(world.replies[1].request_id, 6U);
+  EXPECT_EQ(world.replies[1].message, world.replies[0].message);
+  world.Send(world.Sample(10, 1));
+  EXPECT_EQ(world.last().filter, "slow");
+}
+
 TEST_F(FusionServiceTest, ACommandThatCannotBeIsRefusedWithTheReason) {
   world.Assign(1, {{10, body::Segment::kHead}});
   roster::Command command;
   command.kind = roster::CommandKind::kSelectFilter;
+  command.request_id = 1;
   command.text = "nonesuch";
   EXPECT_TRUE(world.command->Write(command).ok());
+  command.request_id = 2;
   command.text = "tqt";
   command.numbers = {23.0};
   EXPECT_TRUE(world.command->Write(command).ok());
+  command.request_id = 3;
   command.numbers.clear();
   command.body_id = BodyId{9};
   EXPECT_TRUE(world.command->Write(command).ok());

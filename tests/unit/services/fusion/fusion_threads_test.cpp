@@ -125,6 +125,7 @@ TEST(FusionThreadsTest, EverySampleIsAccountedForWhileEverythingChanges) {
     roster::Command command;
     command.kind = roster::CommandKind::kSelectFilter;
     for (int i = 0; i < 100; ++i) {
+      ++command.request_id;
       command.text = i % 2 == 0 ? "slow" : "tqt";
       EXPECT_TRUE(world.command->Write(command).ok());
       world.Assign(3, {{3, i % 2 == 0 ? body::Segment::kNeck : body::Segment::kHead}});

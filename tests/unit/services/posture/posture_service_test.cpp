@@ -163,6 +163,26 @@ TEST(PostureServiceTest, TheDefinitionIsPublishedWithEveryChangeAndItsRevisionGr
   EXPECT_EQ(rig.skeletons.back().definition_revision, rig.definitions[1].revision);
 }
 
+TEST(PostureServiceTest, ARepeatedCommandIsAnsweredAgainAndDoneOnce) {
+  PostureRig rig;
+  rig.Roster(MakeRoster(kBody, kThree));
+  rig.Run(kBody, kThree, 0.5);
+  roster::Command command;
+  command.client_uid = 5;
+  command.request_id = 6;
+  command.body_id = kBody;
+  command.kind = roster::CommandKind::kReferencePose;
+  ASSERT_TRUE(rig.commands->Write(command).ok());
+  const std::size_t definitions = rig.definitions.size();
+  ASSERT_TRUE(rig.commands->Write(command).ok());
+  ASSERT_EQ(rig.replies.size(), 2U);
+  EXPECT_TRUE(rig.replies[0].accepted);
+  EXPECT_EQ(rig.replies[1].request_id, 6U);
+  EXPECT_EQ(rig.replies[1].message, rig.replies[0].message);
+  EXPECT_EQ(rig.definitions.size(), definitions);
+  EXPECT_EQ(rig.Counted(Count::kCommandsAccepted), 1U);
+}
+
 TEST(PostureServiceTest, APersonWhoLeavesTheRosterIsDisposedAndKeepsTheAlignmentForTheReturn) {
   PostureRig rig;
   rig.Roster(MakeRoster(kBody, kThree));

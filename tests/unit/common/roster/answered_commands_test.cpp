@@ -1,21 +1,21 @@
-#include "services/session/answered_commands.hpp"
+#include "common/roster/answered_commands.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace limbcast::session {
+namespace limbcast::roster {
 namespace {
 
-roster::Command Request(std::uint64_t client_uid, std::uint64_t request_id) {
-  roster::Command command;
+Command Request(std::uint64_t client_uid, std::uint64_t request_id) {
+  Command command;
   command.client_uid = client_uid;
   command.request_id = request_id;
   return command;
 }
 
-roster::CommandReply Reply(std::uint64_t client_uid, std::uint64_t request_id) {
-  roster::CommandReply reply;
+CommandReply Reply(std::uint64_t client_uid, std::uint64_t request_id) {
+  CommandReply reply;
   reply.client_uid = client_uid;
   reply.request_id = request_id;
   reply.message = "answer " + std::to_string(request_id);
@@ -46,4 +46,4 @@ TEST(AnsweredCommandsTest, TheOldestAreForgotten) {
 }
 
 }  // namespace
-}  // namespace limbcast::session
+}  // namespace limbcast::roster

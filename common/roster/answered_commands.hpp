@@ -7,7 +7,7 @@
 
 #include "common/roster/command.hpp"
 
-namespace limbcast::session {
+namespace limbcast::roster {
 
 /// The last answer to each client, so that a request that is repeated (its answer may have been
 /// lost while the two were finding each other) is answered again and not done again. The oldest are
@@ -17,13 +17,13 @@ class AnsweredCommands {
   static constexpr std::size_t kMost = 1024;
 
   /// The answer to the very same request; null when it is a new one. Valid until Add.
-  [[nodiscard]] const roster::CommandReply* Find(const roster::Command& command) const;
-  void Add(const roster::CommandReply& reply);
+  [[nodiscard]] const CommandReply* Find(const Command& command) const;
+  void Add(const CommandReply& reply);
   [[nodiscard]] std::size_t size() const { return last_.size(); }
 
  private:
-  std::unordered_map<std::uint64_t, roster::CommandReply> last_;  // by client_uid
-  std::deque<std::uint64_t> order_;                               // of their first answers
+  std::unordered_map<std::uint64_t, CommandReply> last_;  // by client_uid
+  std::deque<std::uint64_t> order_;                       // of their first answers
 };
 
-}  // namespace limbcast::session
+}  // namespace limbcast::roster

@@ -1,14 +1,14 @@
-#include "services/session/answered_commands.hpp"
+#include "common/roster/answered_commands.hpp"
 
-namespace limbcast::session {
+namespace limbcast::roster {
 
-const roster::CommandReply* AnsweredCommands::Find(const roster::Command& command) const {
+const CommandReply* AnsweredCommands::Find(const Command& command) const {
   const auto found = last_.find(command.client_uid);
   const bool same = found != last_.end() && found->second.request_id == command.request_id;
   return same ? &found->second : nullptr;
 }
 
-void AnsweredCommands::Add(const roster::CommandReply& reply) {
+void AnsweredCommands::Add(const CommandReply& reply) {
   const auto [place, is_new] = last_.insert_or_assign(reply.client_uid, reply);
   if (!is_new) {
     return;
@@ -20,4 +20,4 @@ void AnsweredCommands::Add(const roster::CommandReply& reply) {
   }
 }
 
-}  // namespace limbcast::session
+}  // namespace limbcast::roster
