@@ -7,6 +7,7 @@
 #include "common/base/health.hpp"
 #include "common/body/body_definition.hpp"
 #include "common/body/joint_angle_frame.hpp"
+#include "common/body/segment_frame.hpp"
 #include "common/body/segment_state.hpp"
 #include "common/body/segment_truth.hpp"
 #include "common/body/skeleton.hpp"
@@ -45,6 +46,7 @@ LIMBCAST_TOPIC(sensing::MarkerPosition, "marker", QosProfile::kStream, false);
 LIMBCAST_TOPIC(sensing::PositionFix, "position_fix", QosProfile::kStream, false);
 LIMBCAST_TOPIC(sensing::SensorInfo, "sensor_info", QosProfile::kState, false);
 LIMBCAST_TOPIC(body::SegmentState, "segment_state", QosProfile::kStream, true);
+LIMBCAST_TOPIC(body::SegmentFrame, "segment_frame", QosProfile::kStream, true);
 LIMBCAST_TOPIC(body::SegmentTruth, "truth", QosProfile::kStream, false);
 LIMBCAST_TOPIC(body::BodyDefinition, "body_definition", QosProfile::kState, false);
 LIMBCAST_TOPIC(body::Skeleton, "skeleton", QosProfile::kStream, true);
@@ -63,9 +65,9 @@ LIMBCAST_TOPIC(ServiceHealth, "health", QosProfile::kState, false);
 using AllTopics =
     std::tuple<sensing::MargSample, sensing::MargFrame, sensing::FusedOrientation,
                sensing::CoilBurst, sensing::MarkerPosition, sensing::PositionFix,
-               sensing::SensorInfo, body::SegmentState, body::SegmentTruth, body::BodyDefinition,
-               body::Skeleton, body::JointAngleFrame, roster::RosterEntry, roster::SessionState,
-               roster::JoinRequest, roster::JoinReply, roster::Command, roster::CommandReply,
-               ServiceHealth>;
+               sensing::SensorInfo, body::SegmentState, body::SegmentFrame, body::SegmentTruth,
+               body::BodyDefinition, body::Skeleton, body::JointAngleFrame, roster::RosterEntry,
+               roster::SessionState, roster::JoinRequest, roster::JoinReply, roster::Command,
+               roster::CommandReply, ServiceHealth>;
 
 }  // namespace limbcast::bus

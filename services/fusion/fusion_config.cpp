@@ -44,6 +44,7 @@ FusionConfig ReadFusionConfig(const config::ConfigFile& file) {
   config.max_future_s =
       fusion.Read("max_future_s", config.max_future_s, kMinFuture_s, kMaxFuture_s);
   config.declination_deg = fusion.Read("declination_deg", config.declination_deg, -180.0, 180.0);
+  config.segment_frame = fusion.Read("segment_frame", config.segment_frame);
 
   const config::Section filter = file.Get("filter");
   config.filter = ReadChoice(filter, config.filter);

@@ -40,6 +40,10 @@ struct FusionConfig {
   /// has y to true north where a magnetometer gives heading. Range: [-180, 180].
   double declination_deg = 0.0;
 
+  /// Publishes the states of a body together, as `segment_frame`: cheaper for many people. Else
+  /// each alone, as `segment_state`. Services that stand by for each other publish the same way.
+  bool segment_frame = false;
+
   FilterChoice filter;
   std::map<body::Segment, FilterChoice> segment_filters;  ///< segments that differ
   std::map<std::string, std::vector<filters::Setting>, std::less<>> filter_settings;  ///< by filter

@@ -41,11 +41,11 @@ Status FusionService::Listen(std::unique_ptr<bus::Reader<T>>& reader,
 Status FusionService::Start() {
   Expects(!started_, "a service is started once");
   started_ = true;
-  auto state_writer = bus_.MakeWriter<body::SegmentState>();
-  if (!state_writer) {
-    return state_writer.error();
+  auto state_writers = StateWriters::Make(bus_, config_.segment_frame);
+  if (!state_writers) {
+    return state_writers.error();
   }
-  state_writer_ = std::move(*state_writer);
+  state_writers_ = std::move(*state_writers);
   auto reply_writer = bus_.MakeWriter<roster::CommandReply>();
   if (!reply_writer) {
     return reply_writer.error();
@@ -53,7 +53,7 @@ Status FusionService::Start() {
   reply_writer_ = std::move(*reply_writer);
   for (std::size_t i = 0; i < pool_.size(); ++i) {
     workers_.push_back(
-        std::make_unique<FusionWorker>(config_, factory_, clock_, *state_writer_, latencies_));
+        std::make_unique<FusionWorker>(config_, factory_, clock_, state_writers_, latencies_));
   }
   pool_.Start([this](std::size_t worker) -> std::optional<Time> {
     workers_[worker]->Drain();

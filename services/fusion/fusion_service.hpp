@@ -88,7 +88,7 @@ class FusionService {
 
   mutable std::mutex endpoints_mutex_;  // Stop takes the readers while FillHealth looks at them
   bool started_ = false;
-  std::unique_ptr<bus::Writer<body::SegmentState>> state_writer_;
+  StateWriters state_writers_;
   std::unique_ptr<bus::Writer<roster::CommandReply>> reply_writer_;
   std::vector<std::unique_ptr<FusionWorker>> workers_;
   std::unique_ptr<bus::Reader<roster::RosterEntry>> roster_reader_;

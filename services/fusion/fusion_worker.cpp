@@ -17,18 +17,17 @@ bool Names(const BodyPlan& plan, SensorUid sensor_uid) {
 }  // namespace
 
 FusionWorker::FusionWorker(const FusionConfig& config, const FilterFactory& factory,
-                           const Clock& clock, bus::Writer<body::SegmentState>& writer,
-                           FusionLatencies& latencies)
+                           const Clock& clock, StateWriters& writers, FusionLatencies& latencies)
     : seated_([this, &factory](std::string_view name) {
         auto made = factory(name);
         return made.ok() ? batches_.Seat(std::move(*made)) : std::move(made);
       }),
       clock_(clock),
-      writer_(writer),
       latencies_(latencies),
       max_future_(DurationFromSeconds(config.max_future_s)),
       declination_rad_(units::RadFromDeg(config.declination_deg)),
-      queue_(config.queue_capacity) {}
+      queue_(config.queue_capacity),
+      publisher_(writers, counters_) {}
 
 void FusionWorker::Drain() {
   counters_.SawQueue(queue_.size());
@@ -37,13 +36,13 @@ void FusionWorker::Drain() {
     Take(round_[round_size_]);
     if (++unflushed == kFlushEvery) {
       FinishRound();
-      writer_.Flush();
+      publisher_.Flush();
       unflushed = 0;
     }
   }
   FinishRound();
   if (unflushed > 0) {
-    writer_.Flush();
+    publisher_.Flush();
   }
 }
 
@@ -115,7 +114,7 @@ void FusionWorker::Publish(const SensorTrack::Output& output, Time published_at,
   const Time done_at = clock_.Now();
   for (body::SegmentState& state : output.states) {
     state.stages.fusion_published_at = done_at;
-    counters_.AddPublished(writer_.Write(state).ok());
+    publisher_.Write(state);
   }
   if (output.probe) {
     counters_.AddProbe();
@@ -167,9 +166,12 @@ void FusionWorker::DisposeAbsent(BodyId body_id, const BodyPlan& plan) {
         key.body_id = body_id;
         key.segment = segment;
         key.slot = slot;
-        counters_.AddPublished(writer_.Dispose(key).ok());
+        publisher_.Dispose(key);
       }
     }
+  }
+  if (plan.tracks.empty()) {
+    publisher_.DisposeBody(body_id);
   }
 }
 

@@ -9,7 +9,6 @@
 
 #include "common/base/clock.hpp"
 #include "common/base/ids.hpp"
-#include "common/bus/writer.hpp"
 #include "common/filters/filter_batches.hpp"
 #include "common/runtime/bounded_queue.hpp"
 #include "common/runtime/latency_histogram.hpp"
@@ -17,6 +16,7 @@
 #include "services/fusion/fusion_counters.hpp"
 #include "services/fusion/router.hpp"
 #include "services/fusion/sensor_track.hpp"
+#include "services/fusion/state_publisher.hpp"
 
 namespace limbcast::fusion {
 
@@ -41,7 +41,7 @@ class FusionWorker {
 
   /// What is referred to outlives it.
   FusionWorker(const FusionConfig& config, const FilterFactory& factory, const Clock& clock,
-               bus::Writer<body::SegmentState>& writer, FusionLatencies& latencies);
+               StateWriters& writers, FusionLatencies& latencies);
 
   /// Queues a sample. False: the queue is full. (Some places are kept for plans.)
   [[nodiscard]] bool Offer(const sensing::MargSample& sample, const Reception& reception) {
@@ -97,7 +97,6 @@ class FusionWorker {
   filters::FilterBatches batches_;
   const FilterFactory seated_;  // the service's factory, with a seat for what it makes
   const Clock& clock_;
-  bus::Writer<body::SegmentState>& writer_;
   FusionLatencies& latencies_;
   const Duration max_future_;
   const double declination_rad_;
@@ -106,6 +105,7 @@ class FusionWorker {
   std::size_t round_size_ = 0;
   std::unordered_map<SensorUid, Tracked> tracks_;
   CounterCells counters_;
+  StatePublisher publisher_;
 };
 
 }  // namespace limbcast::fusion

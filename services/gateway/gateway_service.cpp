@@ -58,14 +58,16 @@ Status GatewayService::Start() {
 
 Status GatewayService::MakeReaders() {
   if (FlowControl::NeedsStates(config_)) {
-    auto reader = bus_.MakeReader<body::SegmentState>(
-        {.on_sample =
-             [this](const body::SegmentState& state, const bus::SampleInfo&) {
-               if (flow_->OnState(state)) {
-                 pool_.Wake(0);
-               }
-             },
-         .on_disposed = {}});
+    auto reader = bus::SegmentStateReader::Make(
+        bus_, [this](std::span<const body::SegmentState> states, const bus::SampleInfo&) {
+          bool wake = false;
+          for (const body::SegmentState& state : states) {
+            wake = flow_->OnState(state) || wake;
+          }
+          if (wake) {
+            pool_.Wake(0);
+          }
+        });
     if (!reader) {
       return reader.error();
     }

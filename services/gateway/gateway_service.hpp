@@ -14,6 +14,7 @@
 #include "common/base/health.hpp"
 #include "common/base/result.hpp"
 #include "common/bus/bus.hpp"
+#include "common/bus/segment_state_reader.hpp"
 #include "common/runtime/latency_histogram.hpp"
 #include "common/runtime/worker_pool.hpp"
 #include "services/gateway/driver.hpp"
@@ -104,7 +105,7 @@ class GatewayService {
 
   runtime::LatencyHistogram lag_;    // from due to sent
   runtime::LatencyHistogram burst_;  // from the first to the last write of a tick
-  std::unique_ptr<bus::Reader<body::SegmentState>> state_reader_;
+  std::unique_ptr<bus::SegmentStateReader> state_reader_;
   std::unique_ptr<bus::Reader<body::Skeleton>> skeleton_reader_;
 };
 

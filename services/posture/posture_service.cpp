@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <optional>
 #include <utility>
 
 #include "common/base/expects.hpp"
@@ -118,11 +119,14 @@ Status PostureService::MakeReaders() {
                       .on_disposed = {}});
   }
   if (made) {
-    made = Listen<body::SegmentState>(
-        state_reader_,
-        {.on_sample = [this](const body::SegmentState& state,
-                             const SampleInfo& info) { OnState(state, info.received_at); },
-         .on_disposed = {}});
+    auto states = bus::SegmentStateReader::Make(
+        bus_, [this](std::span<const body::SegmentState> of_body, const SampleInfo& info) {
+          OnStates(of_body, info.received_at);
+        });
+    if (!states) {
+      return states.error();
+    }
+    state_reader_ = std::move(*states);
   }
   return made;
 }
@@ -142,17 +146,26 @@ std::size_t PostureService::WorkerOf(BodyId body_id) const {
   return body_id.value % workers_.size();
 }
 
-void PostureService::OnState(const body::SegmentState& state, Time received_at) {
-  if (state.slot != 0) {
-    return;  // the filter that runs beside the one in use
+void PostureService::OnStates(std::span<const body::SegmentState> states, Time received_at) {
+  std::optional<std::size_t> offered;  // to the last worker of them, and it sleeps perhaps
+  for (const body::SegmentState& state : states) {
+    if (state.slot != 0) {
+      continue;  // the filter that runs beside the one in use
+    }
+    counters_.Add(Count::kStatesReceived);
+    const std::size_t worker = WorkerOf(state.body_id);
+    if (!workers_[worker]->Offer(MakeStateInput(state, received_at))) {
+      counters_.Add(Count::kStatesDropped);
+      continue;
+    }
+    if (offered && *offered != worker) {
+      pool_.Wake(*offered);
+    }
+    offered = worker;
   }
-  counters_.Add(Count::kStatesReceived);
-  const std::size_t worker = WorkerOf(state.body_id);
-  if (!workers_[worker]->Offer(MakeStateInput(state, received_at))) {
-    counters_.Add(Count::kStatesDropped);
-    return;
+  if (offered) {
+    pool_.Wake(*offered);
   }
-  pool_.Wake(worker);
 }
 
 void PostureService::HandOver(BodyId body_id, PostureWorker::Item item) {
@@ -184,9 +197,9 @@ void PostureService::FillHealth(ServiceHealth& health) {
   }
   health.values.push_back({"gauge.bodies", static_cast<double>(bodies)});
   if (state_reader_ != nullptr) {
-    const bus::EndpointCounters reader = state_reader_->counters();
-    health.values.push_back({"states.lost", static_cast<double>(reader.lost)});
-    health.values.push_back({"gauge.state_writers", static_cast<double>(reader.alive_writers)});
+    health.values.push_back({"states.lost", static_cast<double>(state_reader_->lost())});
+    health.values.push_back(
+        {"gauge.state_writers", static_cast<double>(state_reader_->alive_writers())});
   }
   if (skeleton_writer_ != nullptr) {
     health.values.push_back(

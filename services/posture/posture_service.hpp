@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "common/base/health.hpp"
 #include "common/base/result.hpp"
 #include "common/bus/bus.hpp"
+#include "common/bus/segment_state_reader.hpp"
 #include "common/runtime/worker_pool.hpp"
 #include "services/posture/alignment_store.hpp"
 #include "services/posture/posture_config.hpp"
@@ -50,7 +52,7 @@ class PostureService {
   [[nodiscard]] Status Listen(std::unique_ptr<bus::Reader<T>>& reader,
                               bus::ReaderHandler<T> handler);
   [[nodiscard]] std::size_t WorkerOf(BodyId body_id) const;
-  void OnState(const body::SegmentState& state, Time received_at);
+  void OnStates(std::span<const body::SegmentState> states, Time received_at);
   void HandOver(BodyId body_id, PostureWorker::Item item);
   void SetLastError(const std::string& message);
 
@@ -75,7 +77,7 @@ class PostureService {
   std::unique_ptr<bus::Reader<body::BodyDefinition>> definition_reader_;
   std::unique_ptr<bus::Reader<roster::Command>> command_reader_;
   std::unique_ptr<bus::Reader<sensing::PositionFix>> fix_reader_;
-  std::unique_ptr<bus::Reader<body::SegmentState>> state_reader_;
+  std::unique_ptr<bus::SegmentStateReader> state_reader_;
 };
 
 }  // namespace limbcast::posture

@@ -10,6 +10,7 @@
 
 namespace limbcast::conformance {
 
+using body::SegmentFrame;
 using body::SegmentState;
 using roster::Command;
 using roster::RosterEntry;

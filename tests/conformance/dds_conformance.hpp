@@ -144,6 +144,7 @@ TEST_P(DdsConformance, MalformedPayloadIsCountedAndNothingElseSuffers) {
   check(bus::TypeTag<MargSample>{});
   check(bus::TypeTag<MargFrame>{});
   check(bus::TypeTag<SegmentState>{});
+  check(bus::TypeTag<SegmentFrame>{});
 }
 
 TEST_P(DdsConformance, IncompatibleQosIsNamedOnBothSides) {

@@ -109,6 +109,14 @@ std::vector<Bytes> Garbage(std::string_view topic) {
     garbage.push_back(GoodBytes<body::SegmentState>(1));
     garbage.back()[kHeader + 6] = 200;  // body_id, segment, slot, then the verdict
   }
+  if (topic == bus::Topic<body::SegmentFrame>::kShortName) {
+    constexpr std::size_t kLengthAt = kHeader + 4;  // after body_id
+    for (const std::uint32_t length : {0xFFFF'FFFFU, 0x7FFF'FFFFU, 65U}) {
+      garbage.emplace_back(Bytes(60'000, 0));
+      garbage.back()[1] = 1;
+      PutUint32(garbage.back(), kLengthAt, length);
+    }
+  }
   return garbage;
 }
 

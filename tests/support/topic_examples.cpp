@@ -160,6 +160,17 @@ Numbers KeyAndSequence(const body::SegmentState& v) {
   return Pair(v.body_id.value * kSegments + body::Index(v.segment), v.sequence);
 }
 
+void Fill(body::SegmentFrame& v, Draw& draw, std::uint32_t key, std::uint32_t sequence) {
+  v.body_id = {key};
+  v.states.resize(1 + draw.Below(body::kMaxStatesPerFrame));
+  for (body::SegmentState& state : v.states) {
+    Fill(state, draw, key * kSegments, sequence);
+  }
+}
+Numbers KeyAndSequence(const body::SegmentFrame& v) {
+  return Pair(v.body_id.value, v.states.empty() ? 0 : v.states.front().sequence);
+}
+
 void Fill(body::SegmentTruth& v, Draw& draw, std::uint32_t key, std::uint32_t sequence) {
   v = {.body_id = {key / kSegments},
        .segment = static_cast<body::Segment>(key % kSegments),
@@ -354,6 +365,7 @@ LIMBCAST_EXAMPLES(sensing::MarkerPosition);
 LIMBCAST_EXAMPLES(sensing::PositionFix);
 LIMBCAST_EXAMPLES(sensing::SensorInfo);
 LIMBCAST_EXAMPLES(body::SegmentState);
+LIMBCAST_EXAMPLES(body::SegmentFrame);
 LIMBCAST_EXAMPLES(body::SegmentTruth);
 LIMBCAST_EXAMPLES(body::BodyDefinition);
 LIMBCAST_EXAMPLES(body::Skeleton);

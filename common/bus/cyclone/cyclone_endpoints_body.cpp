@@ -3,6 +3,7 @@
 namespace limbcast::bus::cyclone {
 
 LIMBCAST_CYCLONE_ENDPOINTS(body::SegmentState);
+LIMBCAST_CYCLONE_ENDPOINTS(body::SegmentFrame);
 LIMBCAST_CYCLONE_ENDPOINTS(body::SegmentTruth);
 LIMBCAST_CYCLONE_ENDPOINTS(body::BodyDefinition);
 LIMBCAST_CYCLONE_ENDPOINTS(body::Skeleton);

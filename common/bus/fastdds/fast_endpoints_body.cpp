@@ -3,6 +3,7 @@
 namespace limbcast::bus::fastdds {
 
 LIMBCAST_FAST_ENDPOINTS(body::SegmentState);
+LIMBCAST_FAST_ENDPOINTS(body::SegmentFrame);
 LIMBCAST_FAST_ENDPOINTS(body::SegmentTruth);
 LIMBCAST_FAST_ENDPOINTS(body::BodyDefinition);
 LIMBCAST_FAST_ENDPOINTS(body::Skeleton);

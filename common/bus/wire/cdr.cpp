@@ -49,6 +49,7 @@ LIMBCAST_CDR(sensing::MarkerPosition);
 LIMBCAST_CDR(sensing::PositionFix);
 LIMBCAST_CDR(sensing::SensorInfo);
 LIMBCAST_CDR(body::SegmentState);
+LIMBCAST_CDR(body::SegmentFrame);
 LIMBCAST_CDR(body::SegmentTruth);
 LIMBCAST_CDR(body::BodyDefinition);
 LIMBCAST_CDR(body::Skeleton);

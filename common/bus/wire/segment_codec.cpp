@@ -35,6 +35,16 @@ void Fields(V& field, D& d, W& w) {
   field("verdicts", d.verdicts, w.verdict_counts());
 }
 
+template <typename V, Of<body::SegmentFrame> D, typename W>
+void KeyFields(V& field, D& d, W& w) {
+  field("body_id", d.body_id, w.body_id());
+}
+template <typename V, Of<body::SegmentFrame> D, typename W>
+void Fields(V& field, D& d, W& w) {
+  KeyFields(field, d, w);
+  field.List("states", d.states, w.states(), body::kMaxStatesPerFrame);
+}
+
 template <typename V, Of<body::SegmentTruth> D, typename W>
 void KeyFields(V& field, D& d, W& w) {
   field("body_id", d.body_id, w.body_id());
@@ -53,6 +63,7 @@ void Fields(V& field, D& d, W& w) {
 }
 
 template struct Codec<body::SegmentState>;
+template struct Codec<body::SegmentFrame>;
 template struct Codec<body::SegmentTruth>;
 
 }  // namespace limbcast::bus

@@ -197,6 +197,11 @@ json ToJson(const body::SegmentState& value) {
   return result;
 }
 
+json ToJson(const body::SegmentFrame& value) {
+  return {{"body_id", value.body_id.value},
+          {"states", ListToJson(value.states, [](const auto& s) { return ToJson(s); })}};
+}
+
 json ToJson(const body::SegmentTruth& value) {
   return {{"body_id", value.body_id.value},
           {"segment", body::ToString(value.segment)},

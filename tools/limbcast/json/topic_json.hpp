@@ -17,6 +17,7 @@ namespace limbcast::tool {
 [[nodiscard]] nlohmann::json ToJson(const sensing::PositionFix& value);
 [[nodiscard]] nlohmann::json ToJson(const sensing::SensorInfo& value);
 [[nodiscard]] nlohmann::json ToJson(const body::SegmentState& value);
+[[nodiscard]] nlohmann::json ToJson(const body::SegmentFrame& value);
 [[nodiscard]] nlohmann::json ToJson(const body::SegmentTruth& value);
 [[nodiscard]] nlohmann::json ToJson(const body::BodyDefinition& value);
 [[nodiscard]] nlohmann::json ToJson(const body::Skeleton& value);

@@ -29,7 +29,18 @@ Result<std::unique_ptr<PipelineView>> PipelineView::Make(bus::Bus& bus, Options 
     made = view->Listen(bus, view->skeletons_, timed);
   }
   if (made && options.segment_states) {
-    made = view->Listen(bus, view->states_, timed);
+    auto states = bus::SegmentStateReader::Make(
+        bus, [self = view.get()](std::span<const body::SegmentState> of_body,
+                                 const bus::SampleInfo& info) {
+          const std::lock_guard lock(self->mutex_);
+          for (const body::SegmentState& state : of_body) {
+            self->model_.On(state, info.received_at);
+          }
+        });
+    if (!states) {
+      return states.error();
+    }
+    view->states_ = std::move(*states);
   }
   if (made && options.truth) {
     made = view->Listen(bus, view->truths_, timeless);

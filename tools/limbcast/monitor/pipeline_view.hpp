@@ -6,6 +6,7 @@
 
 #include "common/base/result.hpp"
 #include "common/bus/bus.hpp"
+#include "common/bus/segment_state_reader.hpp"
 #include "tools/limbcast/monitor/pipeline_model.hpp"
 
 namespace limbcast::tool {
@@ -43,7 +44,7 @@ class PipelineView {
   std::unique_ptr<bus::Reader<ServiceHealth>> health_;
   std::unique_ptr<bus::Reader<roster::RosterEntry>> roster_;
   std::unique_ptr<bus::Reader<body::Skeleton>> skeletons_;
-  std::unique_ptr<bus::Reader<body::SegmentState>> states_;
+  std::unique_ptr<bus::SegmentStateReader> states_;
   std::unique_ptr<bus::Reader<body::SegmentTruth>> truths_;
 };
 

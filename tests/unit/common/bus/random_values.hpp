@@ -68,6 +68,7 @@ LIMBCAST_FIELDS(body::SegmentState) {
     F(verdicts.count[i]);
   }
 }
+LIMBCAST_FIELDS(body::SegmentFrame) { F(body_id), LIST(states, 64); }
 LIMBCAST_FIELDS(body::SegmentTruth) {
   F(body_id), ENUM(segment, body::Segment::kLeftToe), F(sensor_uid), F(measured_at);
   F(sensor_valid), F(segment_valid), F(q_earth_sensor), F(q_earth_segment), F(p_earth_segment_m);

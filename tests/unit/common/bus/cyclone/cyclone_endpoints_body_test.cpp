@@ -6,6 +6,9 @@ namespace {
 TEST(CycloneEndpointsBodyTest, SegmentStateCrossesUnchanged) {
   ExpectCrossing<body::SegmentState>(Vendor::kCyclone);
 }
+TEST(CycloneEndpointsBodyTest, SegmentFrameCrossesUnchanged) {
+  ExpectCrossing<body::SegmentFrame>(Vendor::kCyclone);
+}
 TEST(CycloneEndpointsBodyTest, SegmentTruthCrossesUnchanged) {
   ExpectCrossing<body::SegmentTruth>(Vendor::kCyclone);
 }

@@ -6,6 +6,9 @@ namespace {
 TEST(FastEndpointsBodyTest, SegmentStateCrossesUnchanged) {
   ExpectCrossing<body::SegmentState>(Vendor::kFast);
 }
+TEST(FastEndpointsBodyTest, SegmentFrameCrossesUnchanged) {
+  ExpectCrossing<body::SegmentFrame>(Vendor::kFast);
+}
 TEST(FastEndpointsBodyTest, SegmentTruthCrossesUnchanged) {
   ExpectCrossing<body::SegmentTruth>(Vendor::kFast);
 }

@@ -44,6 +44,7 @@ TEST(CodecAllocationTest, TheHotPathAllocatesNothingOnceItsObjectsHaveGrown) {
   EXPECT_EQ(AllocationsOfARoundTripAfterTheFirst<sensing::MargSample>(), 0U);
   EXPECT_EQ(AllocationsOfARoundTripAfterTheFirst<sensing::MargFrame>(), 0U);
   EXPECT_EQ(AllocationsOfARoundTripAfterTheFirst<body::SegmentState>(), 0U);
+  EXPECT_EQ(AllocationsOfARoundTripAfterTheFirst<body::SegmentFrame>(), 0U);
   EXPECT_EQ(AllocationsOfARoundTripAfterTheFirst<body::Skeleton>(), 0U);
 }
 

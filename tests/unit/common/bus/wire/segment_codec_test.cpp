@@ -3,7 +3,7 @@
 namespace limbcast::bus::testing {
 namespace {
 
-using SegmentTopics = ::testing::Types<body::SegmentState, body::SegmentTruth>;
+using SegmentTopics = ::testing::Types<body::SegmentState, body::SegmentFrame, body::SegmentTruth>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Segment, CodecTest, SegmentTopics);
 
 TEST(SegmentCodecTest, AFilterNameOf17CharactersIsRefused) {
@@ -24,6 +24,17 @@ TEST(SegmentCodecTest, NumbersThatAreNoEnumeratorsAreRefused) {
   received.magnetic_state(3);
   ExpectCorrupt<body::SegmentState>(
       received, "segment_state.magnetic_state has 3 as its number, at most 2 are allowed");
+}
+
+TEST(SegmentCodecTest, AFrameWithOneWrongStateIsRefused) {
+  body::SegmentFrame frame;
+  frame.states.resize(body::kMaxStatesPerFrame + 1);
+  ExpectOutOfBounds(frame, "segment_frame.states has 65 elements, at most 64 are allowed");
+  wire::SegmentFrame received;
+  received.states().resize(2);
+  received.states()[1].segment(23);
+  ExpectCorrupt<body::SegmentFrame>(
+      received, "segment_frame.states.segment has 23 as its number, at most 22 are allowed");
 }
 
 TEST(SegmentCodecTest, SlotsOfOneSegmentAreDifferentInstances) {
