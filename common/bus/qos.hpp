@@ -11,10 +11,16 @@ enum class QosProfile : std::uint8_t {
   /// reader loses old samples and never holds the writer back.
   kStream,
   /// What is true until it changes: RELIABLE, TRANSIENT_LOCAL, KEEP_LAST(1). A late joiner gets the
-  /// last value.
+  /// last value. Readers keep the last 8 (kStateReaderDepth).
   kState,
   /// Requests and replies: RELIABLE, VOLATILE, KEEP_ALL within limits.
   kCommand,
 };
+
+/// How many untaken samples of an instance a reader of a state topic keeps. More than one, because
+/// two writers may have one instance (a service and the one that stands by for it): with one, what
+/// comes second takes the first one's place before it is read, and Fast DDS drops what comes second
+/// but was written before.
+inline constexpr int kStateReaderDepth = 8;
 
 }  // namespace limbcast::bus

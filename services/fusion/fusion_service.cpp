@@ -301,7 +301,7 @@ void FusionService::FillHealth(ServiceHealth& health) {
     };
     add("gauge.marg_writers", writers_of(marg_reader_));
     add("gauge.marg_frame_writers", writers_of(marg_frame_reader_));
-    add("gauge.state_readers", state_writer_ == nullptr ? 0 : state_writer_->counters().matched);
+    add("gauge.state_readers", state_writers_.readers());
   }
   {
     const std::scoped_lock lock(intake_mutex_);

@@ -22,6 +22,13 @@ Result<StateWriters> StateWriters::Make(bus::Bus& bus, bool frames) {
   return made;
 }
 
+std::int32_t StateWriters::readers() const {
+  if (single != nullptr) {
+    return single->counters().matched;
+  }
+  return frames != nullptr ? frames->counters().matched : 0;
+}
+
 StatePublisher::StatePublisher(StateWriters& writers, CounterCells& counters)
     : writers_(writers), counters_(counters) {
   if (writers_.frames != nullptr) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "common/base/ids.hpp"
@@ -18,6 +19,8 @@ struct StateWriters {
   std::unique_ptr<bus::Writer<body::SegmentFrame>> frames;
 
   [[nodiscard]] static Result<StateWriters> Make(bus::Bus& bus, bool frames);
+  /// Who hears them now; 0 before Make.
+  [[nodiscard]] std::int32_t readers() const;
 };
 
 /// One worker's states on their way out. Thread-compatible; does not allocate after construction.

@@ -17,6 +17,7 @@
 #include "common/base/health.hpp"
 #include "common/base/result.hpp"
 #include "common/bus/bus.hpp"
+#include "common/roster/answered_commands.hpp"
 #include "common/runtime/bounded_queue.hpp"
 #include "common/runtime/worker_pool.hpp"
 #include "services/session/session_config.hpp"

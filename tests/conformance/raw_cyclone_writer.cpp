@@ -74,7 +74,7 @@ class RawCycloneWriter final : public RawWriter {
     if (!topic) {
       return topic.error();
     }
-    const auto qos = bus::cyclone::EndpointQos(names.profile, names.exclusive, config);
+    const auto qos = bus::cyclone::WriterQos(names.profile, names.exclusive, config);
     writer_ = dds_create_writer(participant_->publisher(), topic->entity, qos.get(), nullptr);
     return writer_ < 0 ? Status(bus::cyclone::CycloneError("raw writer of", names.topic, writer_))
                        : Ok();

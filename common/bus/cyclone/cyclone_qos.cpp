@@ -42,7 +42,7 @@ constexpr dds_duration_t kMaxBlocking = DDS_MSECS(100);
 
 }  // namespace
 
-Qos EndpointQos(QosProfile profile, bool exclusive, const BusConfig& config) {
+Qos WriterQos(QosProfile profile, bool exclusive, const BusConfig& config) {
   const Row row = RowOf(profile, config);
   Qos qos(dds_create_qos());
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlocking);
@@ -67,6 +67,14 @@ Qos EndpointQos(QosProfile profile, bool exclusive, const BusConfig& config) {
   dds_qset_latency_budget(qos.get(), 0);
   const dds_data_representation_id_t representation = DDS_DATA_REPRESENTATION_XCDR1;
   dds_qset_data_representation(qos.get(), 1, &representation);
+  return qos;
+}
+
+Qos ReaderQos(QosProfile profile, bool exclusive, const BusConfig& config) {
+  Qos qos = WriterQos(profile, exclusive, config);
+  if (profile == QosProfile::kState) {
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kStateReaderDepth);
+  }
   return qos;
 }
 

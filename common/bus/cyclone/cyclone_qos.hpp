@@ -19,7 +19,8 @@ using Qos = std::unique_ptr<dds_qos_t, DeleteQos>;
 /// The QoS of a reader or writer by the purpose of its topic; every policy that matters is set,
 /// none is left to a default of the library. `exclusive` = EXCLUSIVE ownership, for a writer with
 /// the strength of `config`.
-[[nodiscard]] Qos EndpointQos(QosProfile profile, bool exclusive, const BusConfig& config);
+[[nodiscard]] Qos WriterQos(QosProfile profile, bool exclusive, const BusConfig& config);
+[[nodiscard]] Qos ReaderQos(QosProfile profile, bool exclusive, const BusConfig& config);
 
 /// The QoS of the publisher and subscriber: the partition.
 [[nodiscard]] Qos GroupQos(const BusConfig& config);

@@ -49,7 +49,7 @@ class CycloneReader final : public Reader<T> {
     malformed_ = topic->malformed;
     malformed_->Add(&events_);
     const Qos qos =
-        EndpointQos(Topic<T>::kProfile, Topic<T>::kExclusiveOwnership, participant_.config());
+        ReaderQos(Topic<T>::kProfile, Topic<T>::kExclusiveOwnership, participant_.config());
     const Listener listener = ReaderListener(events_, &OnData, this);
     reader_ =
         dds_create_reader(participant_.subscriber(), topic->entity, qos.get(), listener.get());

@@ -38,7 +38,7 @@ class CycloneWriter final : public Writer<T> {
       return topic.error();
     }
     const Qos qos =
-        EndpointQos(Topic<T>::kProfile, Topic<T>::kExclusiveOwnership, participant_.config());
+        WriterQos(Topic<T>::kProfile, Topic<T>::kExclusiveOwnership, participant_.config());
     const Listener listener = WriterListener(events_);
     writer_ = dds_create_writer(participant_.publisher(), topic->entity, qos.get(), listener.get());
     return writer_ < 0 ? CycloneError("writer of", Topic<T>::kName, writer_) : Status();

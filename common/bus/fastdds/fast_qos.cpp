@@ -119,6 +119,11 @@ dds::DataReaderQos ReaderQos(QosProfile profile, bool exclusive, const BusConfig
   if (row.leased) {
     qos.liveliness().lease_duration = ToFast(config.stream_lease + kLeaseTolerance);
   }
+  if (profile == QosProfile::kState) {
+    qos.history().depth = kStateReaderDepth;
+    qos.resource_limits().max_samples_per_instance = kStateReaderDepth;
+    qos.resource_limits().max_samples = row.max_instances * kStateReaderDepth;
+  }
   auto& times = qos.reliable_reader_qos().times;
   times.initialAcknackDelay = ToFast(milliseconds(5));
   times.heartbeatResponseDelay = ToFast(milliseconds(1));

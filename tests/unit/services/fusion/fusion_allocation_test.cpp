@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <span>
+#include <string>
 
+#include "common/bus/segment_state_reader.hpp"
 #include "services/fusion/fusion_service.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/unit/services/fusion/fusion_fixture.hpp"
@@ -17,7 +20,12 @@ TEST(FusionAllocationTest, TheCounterSeesAnAllocation) {
   EXPECT_EQ(test_support::AllocationCount(), before + 1) << *memory;
 }
 
-TEST(FusionAllocationTest, NoAllocationFromSampleToStateAfterTheStart) {
+class FusionWaysOutTest : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Published, FusionWaysOutTest, ::testing::Bool(), [](const auto& test) {
+  return std::string(test.param ? "as_frames" : "alone");
+});
+
+TEST_P(FusionWaysOutTest, NoAllocationFromSampleToStateAfterTheStart) {
   test_support::FakeClock clock;
   const auto hub = bus::inproc::MakeHub(&clock);
   const auto outside = bus::inproc::MakeBus(hub);
@@ -25,12 +33,14 @@ TEST(FusionAllocationTest, NoAllocationFromSampleToStateAfterTheStart) {
   test_support::ImmediatePool pool;
   FusionConfig config;
   config.filter.beside = "tqt";
+  config.segment_frame = GetParam();
   FusionService service(config, clock, *inside, pool);  // with the shipped filter
   ASSERT_TRUE(service.Start().ok());
   std::uint64_t states = 0;
-  const auto reader = *outside->MakeReader<body::SegmentState>(
-      {.on_sample = [&](const body::SegmentState&, const bus::SampleInfo&) { ++states; },
-       .on_disposed = {}});
+  const auto reader = *bus::SegmentStateReader::Make(
+      *outside, [&](std::span<const body::SegmentState> several, const bus::SampleInfo&) {
+        states += several.size();
+      });
   const auto roster = *outside->MakeWriter<roster::RosterEntry>();
   roster::RosterEntry entry;
   entry.body_id = BodyId{1};

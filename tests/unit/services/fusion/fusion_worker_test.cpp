@@ -65,9 +65,10 @@ class FusionWorkerTest : public ::testing::Test {
     small.queue_capacity = 128;
     return small;
   }();
-  WriterSpy writer;
+  StateWriters writers{.single = std::make_unique<WriterSpy>(), .frames = nullptr};
+  WriterSpy& writer = static_cast<WriterSpy&>(*writers.single);
   FusionLatencies latencies;
-  FusionWorker worker{config, factory, world.clock, writer, latencies};
+  FusionWorker worker{config, factory, world.clock, writers, latencies};
 };
 
 TEST_F(FusionWorkerTest, DrainAnswersEverySampleInOrderAndFlushesOnceAtTheEnd) {

@@ -71,6 +71,7 @@ class PostureRig {
                              const bus::SampleInfo&) { replies.push_back(value); },
          .on_disposed = {}});
     states = *bus_->MakeWriter<body::SegmentState>();
+    frames = *bus_->MakeWriter<body::SegmentFrame>();
     rosters = *bus_->MakeWriter<roster::RosterEntry>();
     commands = *bus_->MakeWriter<roster::Command>();
     fixes = *bus_->MakeWriter<sensing::PositionFix>();
@@ -154,6 +155,7 @@ class PostureRig {
   std::vector<roster::CommandReply> replies;
   std::vector<BodyId> gone;
   std::unique_ptr<bus::Writer<body::SegmentState>> states;
+  std::unique_ptr<bus::Writer<body::SegmentFrame>> frames;
   std::unique_ptr<bus::Writer<roster::RosterEntry>> rosters;
   std::unique_ptr<bus::Writer<roster::Command>> commands;
   std::unique_ptr<bus::Writer<sensing::PositionFix>> fixes;

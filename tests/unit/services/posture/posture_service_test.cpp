@@ -129,6 +129,23 @@ TEST(PostureServiceTest, StageTimesAreThoseOfTheStateThatCompletedTheTick) {
   EXPECT_EQ(stages.posture_published_at, rig.clock.Now());
 }
 
+TEST(PostureServiceTest, AFrameOfStatesIsAsGoodAsItsStatesAlone) {
+  PostureRig rig;
+  rig.Roster(MakeRoster(kBody, kThree));
+  body::SegmentFrame frame;
+  frame.body_id = kBody;
+  for (const Segment segment : kThree) {
+    frame.states.push_back(MakeState(kBody, segment, rig.clock.Now()));
+  }
+  frame.states.push_back(frame.states.front());
+  frame.states.back().slot = 1;  // the filter beside: nobody poses by it
+  ASSERT_TRUE(rig.frames->Write(frame).ok());
+  ASSERT_EQ(rig.skeletons.size(), 1U);
+  EXPECT_TRUE(rig.skeletons[0].complete);
+  EXPECT_EQ(rig.Counted(Count::kStatesReceived), kThree.size());
+  EXPECT_EQ(rig.Counted(Count::kStatesUsed), kThree.size());
+}
+
 TEST(PostureServiceTest, TheRootIsWhereThePositionFixSays) {
   PostureRig rig;
   rig.Roster(MakeRoster(kBody, kThree));
@@ -307,7 +324,7 @@ TEST(PostureServiceTest, HealthCountsAndMeasures) {
   EXPECT_EQ(value("skeletons"), 10.0);
   EXPECT_EQ(value("skeletons.complete"), 10.0);
   EXPECT_EQ(value("gauge.bodies"), 1.0);
-  EXPECT_EQ(value("gauge.state_writers"), 1.0);
+  EXPECT_EQ(value("gauge.state_writers"), 2.0);  // alone, and as frames
   ASSERT_FALSE(health.latencies.empty());
   EXPECT_EQ(health.latencies[0].stage, "sensor_to_posture");
   EXPECT_EQ(health.latencies[0].count, 10U);

@@ -29,7 +29,7 @@ struct Read {
 
 TEST(CycloneQosTest, AStreamKeepsTheLastFewAndProvesThatItPublishes) {
   const BusConfig config{.stream_lease = std::chrono::milliseconds(250), .stream_depth = 7};
-  const Read qos(EndpointQos(QosProfile::kStream, false, config));
+  const Read qos(WriterQos(QosProfile::kStream, false, config));
   EXPECT_EQ(qos.reliability, DDS_RELIABILITY_RELIABLE);
   EXPECT_EQ(qos.durability, DDS_DURABILITY_VOLATILE);
   EXPECT_EQ(qos.history, DDS_HISTORY_KEEP_LAST);
@@ -40,7 +40,7 @@ TEST(CycloneQosTest, AStreamKeepsTheLastFewAndProvesThatItPublishes) {
 }
 
 TEST(CycloneQosTest, AStateIsKeptForLateJoiners) {
-  const Read qos(EndpointQos(QosProfile::kState, false, {}));
+  const Read qos(WriterQos(QosProfile::kState, false, {}));
   EXPECT_EQ(qos.reliability, DDS_RELIABILITY_RELIABLE);
   EXPECT_EQ(qos.durability, DDS_DURABILITY_TRANSIENT_LOCAL);
   EXPECT_EQ(qos.history, DDS_HISTORY_KEEP_LAST);
@@ -48,8 +48,12 @@ TEST(CycloneQosTest, AStateIsKeptForLateJoiners) {
   EXPECT_EQ(qos.liveliness, DDS_LIVELINESS_AUTOMATIC);
 }
 
+TEST(CycloneQosTest, AReaderOfStatesKeepsThoseOfSeveralWriters) {
+  EXPECT_EQ(Read(ReaderQos(QosProfile::kState, false, {})).depth, kStateReaderDepth);
+}
+
 TEST(CycloneQosTest, CommandsAreAllKeptWithinLimitsAndBlockAtMost100Milliseconds) {
-  const Read qos(EndpointQos(QosProfile::kCommand, false, {}));
+  const Read qos(WriterQos(QosProfile::kCommand, false, {}));
   EXPECT_EQ(qos.history, DDS_HISTORY_KEEP_ALL);
   EXPECT_EQ(qos.max_instances, 256);
   EXPECT_EQ(qos.per_instance, 512);
@@ -58,7 +62,7 @@ TEST(CycloneQosTest, CommandsAreAllKeptWithinLimitsAndBlockAtMost100Milliseconds
 }
 
 TEST(CycloneQosTest, ExclusiveOwnershipHasTheStrengthOfTheConfiguration) {
-  const Qos qos = EndpointQos(QosProfile::kStream, true, {.ownership_strength = 33});
+  const Qos qos = WriterQos(QosProfile::kStream, true, {.ownership_strength = 33});
   EXPECT_EQ(Read(qos).ownership, DDS_OWNERSHIP_EXCLUSIVE);
   std::int32_t strength = 0;
   ASSERT_TRUE(dds_qget_ownership_strength(qos.get(), &strength));

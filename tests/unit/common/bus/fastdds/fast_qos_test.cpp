@@ -31,6 +31,10 @@ TEST(FastQosTest, AStateIsKeptForLateJoinersWhoHearOfItWithinATenthOfASecond) {
   EXPECT_FALSE(qos.writer_data_lifecycle().autodispose_unregistered_instances);
 }
 
+TEST(FastQosTest, AReaderOfStatesKeepsThoseOfSeveralWriters) {
+  EXPECT_EQ(ReaderQos(QosProfile::kState, false, {}).history().depth, kStateReaderDepth);
+}
+
 TEST(FastQosTest, CommandsAreAllKeptWithinLimitsAndBlockAtMost100Milliseconds) {
   const auto qos = WriterQos(QosProfile::kCommand, false, {});
   EXPECT_EQ(qos.history().kind, dds::KEEP_ALL_HISTORY_QOS);

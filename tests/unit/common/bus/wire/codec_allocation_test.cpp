@@ -18,10 +18,15 @@ std::size_t AllocationsOfARoundTripAfterTheFirst() {
   if constexpr (requires { value.filter; }) {
     value.filter = "gauss_newton";  // names of filters are short
   }
+  if constexpr (requires { value.states; }) {
+    for (auto& state : value.states) {
+      state.filter = "gauss_newton";
+    }
+  }
   T decoded;
   typename Codec<T>::Wire sent;
   typename Codec<T>::Wire received;
-  std::array<char, 8192> bytes{};
+  std::array<char, 32768> bytes{};
   bool good = true;
   std::size_t before = 0;
   for (int round = 0; round < 10; ++round) {

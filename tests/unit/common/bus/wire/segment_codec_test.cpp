@@ -34,7 +34,7 @@ TEST(SegmentCodecTest, AFrameWithOneWrongStateIsRefused) {
   received.states().resize(2);
   received.states()[1].segment(23);
   ExpectCorrupt<body::SegmentFrame>(
-      received, "segment_frame.states.segment has 23 as its number, at most 22 are allowed");
+      received, "segment_frame.segment has 23 as its number, at most 22 are allowed");
 }
 
 TEST(SegmentCodecTest, SlotsOfOneSegmentAreDifferentInstances) {
