@@ -45,11 +45,15 @@ std::vector<std::string> ArgumentsOf(Part part, const DemoOptions& options) {
   if (!options.bus.partition.empty()) {
     add({"--partition", options.bus.partition});
   }
-  // What makes many small samples cheap with each library (numbers: tests/benchmark/system).
+  // One message for a body and tick instead of one for each sensor, and what else makes many small
+  // samples cheap (numbers: tests/benchmark/system).
   if (VendorOf(options.dds, NameOf(part)) == "cyclone") {
     add({"--set", "bus.write_batching=true"});
-  } else if (part == Part::kGateway) {
+  }
+  if (part == Part::kGateway) {
     add({"--set", "gateway.marg_frame=true"});
+  } else if (part == Part::kFusion) {
+    add({"--set", "fusion.segment_frame=true"});
   }
   for (const std::string& setting : options.service_settings) {
     add({"--set", setting});
