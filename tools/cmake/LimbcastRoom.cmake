@@ -10,6 +10,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(limbcast_options INTERFACE -Wno-null-dereference -Wno-array-bounds
     -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict -Wno-maybe-uninitialized)
 endif()
+if(LIMBCAST_FUZZ)
+  # Another compiler, with warnings of its own: they are the release build's affair.
+  target_compile_options(limbcast_options INTERFACE -w -fsanitize=fuzzer-no-link)
+endif()
 if(LIMBCAST_SANITIZE)
   target_compile_options(limbcast_options INTERFACE -fsanitize=${LIMBCAST_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
