@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "common/base/time.hpp"
 
@@ -13,6 +14,8 @@ struct CoilDrive {
   /// The current has settled: neither within the settling time after an edge nor in a slot that a
   /// source nearby was granted. False: the magnetometer's reading means nothing.
   bool settled = true;
+  /// What flowed, signed, where the source measures it; not finite: nobody did.
+  double measured_a = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// One tick of a sensor and of the source that it is tracked from, for filters that use every

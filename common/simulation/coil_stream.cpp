@@ -1,6 +1,7 @@
 #include "common/simulation/coil_stream.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "common/math/rotation.hpp"
 
@@ -46,56 +47,62 @@ MargErrors CoilSensorErrors(double mag_noise_tesla) {
   return errors;
 }
 
+CoilStream::CoilStream(CoilStreamConfig config, std::uint64_t seed)
+    : config_(std::move(config)),
+      sensor_model_(config_.errors, config_.rate_hz, Random(seed, "sensor")),
+      emitter_model_(config_.errors, config_.rate_hz, Random(seed, "emitter")),
+      p_begin_m_(config_.sensor(0.0).p_earth_local_m) {}
+
+CoilTick CoilStream::Next() {
+  const double t_s = static_cast<double>(tick_++) / config_.rate_hz;
+  const RigidMotion sensor = config_.sensor(t_s);
+  const RigidMotion emitter = config_.emitter(t_s);
+  IdealMarg ideal = MakeIdealMarg(sensor, {}, config_.world);
+  const Eigen::Vector3d p_m = sensor.p_earth_local_m;
+  const double L = config_.gradient_reach_m;
+  const Eigen::Vector3d levelled_m = L * ((p_m - p_begin_m_) / L).array().sin().matrix();
+  Eigen::Vector3d added_E = config_.gradient_tesla_m * levelled_m;
+  added_E += FieldOf(config_.source, TrueCurrent(config_.pulses, t_s), emitter, p_m);
+  CoilTick tick;
+  tick.frame.drive = StatedDrive(config_.pulses, t_s);
+  for (const ForeignSource& other : config_.foreign) {
+    added_E += FieldOf(config_.source, TrueCurrent(other.pulses, t_s), other.motion(t_s), p_m);
+    const sensing::CoilDrive drive = StatedDrive(other.pulses, t_s);
+    if (other.masked && (drive.coil >= 0 || !drive.settled)) {
+      tick.frame.drive.settled = false;
+    }
+  }
+  ideal.mag_tesla += sensor.R_earth_local.transpose() * added_E;
+  const IdealMarg emitter_ideal = MakeIdealMarg(emitter, {}, config_.world);
+
+  sensing::MargSample read;
+  sensor_model_.Read(ideal, read);
+  sensing::MargSample emitter_read;
+  emitter_model_.Read(emitter_ideal, emitter_read);
+  constexpr std::uint32_t kInertialSaturated = sensing::kGyroSaturated | sensing::kAccelSaturated;
+  tick.frame.measured_at = TimeFromNanoseconds(0) + DurationFromSeconds(t_s);
+  tick.frame.gyro_rad_s = read.gyro_rad_s.cast<double>();
+  tick.frame.accel_m_s2 = read.accel_m_s2.cast<double>();
+  tick.frame.mag_tesla = read.mag_tesla.cast<double>();
+  tick.frame.mag_valid = !read.Has(sensing::kMagSaturated);
+  tick.frame.emitter_inertial = config_.emitter_inertial;
+  tick.frame.emitter_gyro_rad_s = emitter_read.gyro_rad_s.cast<double>();
+  tick.frame.emitter_accel_m_s2 = emitter_read.accel_m_s2.cast<double>();
+  tick.frame.inertial_saturated =
+      ((read.flags | (config_.emitter_inertial ? emitter_read.flags : 0U)) & kInertialSaturated) !=
+      0U;
+  tick.p_emitter_sensor_m = emitter.R_earth_local.transpose() * (p_m - emitter.p_earth_local_m);
+  tick.q_sensor_emitter =
+      math::QuaternionFromMatrix(sensor.R_earth_local.transpose() * emitter.R_earth_local);
+  return tick;
+}
+
 std::vector<CoilTick> SimulateCoil(const CoilStreamConfig& config, double duration_s,
                                    std::uint64_t seed) {
-  MargModel sensor_model(config.errors, config.rate_hz, Random(seed, "sensor"));
-  MargModel emitter_model(config.errors, config.rate_hz, Random(seed, "emitter"));
-  const Eigen::Vector3d p_begin_m = config.sensor(0.0).p_earth_local_m;
-  std::vector<CoilTick> ticks;
-  const auto count = static_cast<std::int64_t>(duration_s * config.rate_hz);
-  ticks.reserve(static_cast<std::size_t>(count));
-  for (std::int64_t k = 0; k < count; ++k) {
-    const double t_s = static_cast<double>(k) / config.rate_hz;
-    const RigidMotion sensor = config.sensor(t_s);
-    const RigidMotion emitter = config.emitter(t_s);
-    IdealMarg ideal = MakeIdealMarg(sensor, {}, config.world);
-    const Eigen::Vector3d p_m = sensor.p_earth_local_m;
-    const double L = config.gradient_reach_m;
-    const Eigen::Vector3d levelled_m = L * ((p_m - p_begin_m) / L).array().sin().matrix();
-    Eigen::Vector3d added_E = config.gradient_tesla_m * levelled_m;
-    added_E += FieldOf(config.source, TrueCurrent(config.pulses, t_s), emitter, p_m);
-    CoilTick tick;
-    tick.frame.drive = StatedDrive(config.pulses, t_s);
-    for (const ForeignSource& other : config.foreign) {
-      added_E += FieldOf(config.source, TrueCurrent(other.pulses, t_s), other.motion(t_s), p_m);
-      const sensing::CoilDrive drive = StatedDrive(other.pulses, t_s);
-      if (other.masked && (drive.coil >= 0 || !drive.settled)) {
-        tick.frame.drive.settled = false;
-      }
-    }
-    ideal.mag_tesla += sensor.R_earth_local.transpose() * added_E;
-    const IdealMarg emitter_ideal = MakeIdealMarg(emitter, {}, config.world);
-
-    sensing::MargSample read;
-    sensor_model.Read(ideal, read);
-    sensing::MargSample emitter_read;
-    emitter_model.Read(emitter_ideal, emitter_read);
-    constexpr std::uint32_t kInertialSaturated = sensing::kGyroSaturated | sensing::kAccelSaturated;
-    tick.frame.measured_at = TimeFromNanoseconds(0) + DurationFromSeconds(t_s);
-    tick.frame.gyro_rad_s = read.gyro_rad_s.cast<double>();
-    tick.frame.accel_m_s2 = read.accel_m_s2.cast<double>();
-    tick.frame.mag_tesla = read.mag_tesla.cast<double>();
-    tick.frame.mag_valid = !read.Has(sensing::kMagSaturated);
-    tick.frame.emitter_inertial = config.emitter_inertial;
-    tick.frame.emitter_gyro_rad_s = emitter_read.gyro_rad_s.cast<double>();
-    tick.frame.emitter_accel_m_s2 = emitter_read.accel_m_s2.cast<double>();
-    tick.frame.inertial_saturated =
-        ((read.flags | (config.emitter_inertial ? emitter_read.flags : 0U)) & kInertialSaturated) !=
-        0U;
-    tick.p_emitter_sensor_m = emitter.R_earth_local.transpose() * (p_m - emitter.p_earth_local_m);
-    tick.q_sensor_emitter =
-        math::QuaternionFromMatrix(sensor.R_earth_local.transpose() * emitter.R_earth_local);
-    ticks.push_back(tick);
+  CoilStream stream(config, seed);
+  std::vector<CoilTick> ticks(static_cast<std::size_t>(duration_s * config.rate_hz));
+  for (CoilTick& tick : ticks) {
+    tick = stream.Next();
   }
   return ticks;
 }

@@ -51,8 +51,25 @@ struct CoilTick {
 /// magnetometer reading; range 150 µT.
 [[nodiscard]] MargErrors CoilSensorErrors(double mag_noise_tesla);
 
-/// The whole recording. Readings are those of MargModel; the magnetometer feels
+/// A recording without end, tick by tick. Readings are those of MargModel; the magnetometer feels
 ///   B = B_world(p) + G L sin((p − p_begin)/L) + Σ i_c(t) R_EM B_c(R_MEᵀ (p − p_M))
+/// Thread-compatible; a copy goes on by itself.
+class CoilStream {
+ public:
+  CoilStream(CoilStreamConfig config, std::uint64_t seed);
+
+  /// The tick at k / rate_hz, k = 0, 1, ...
+  [[nodiscard]] CoilTick Next();
+
+ private:
+  CoilStreamConfig config_;
+  MargModel sensor_model_;
+  MargModel emitter_model_;
+  Eigen::Vector3d p_begin_m_;
+  std::int64_t tick_ = 0;
+};
+
+/// The first `duration_s` of a CoilStream.
 [[nodiscard]] std::vector<CoilTick> SimulateCoil(const CoilStreamConfig& config, double duration_s,
                                                  std::uint64_t seed);
 

@@ -26,10 +26,12 @@ Status Validate(const CoilInertialConfig& c) {
       Range{"sigma_background_tesla", c.sigma_background_tesla, 1e-8, 1e-3},
       Range{"background_period_s", c.background_period_s, 0.0, 10.0},
       Range{"half_space", c.half_space ? c.half_space->norm() : 1.0, 0.999, 1.001},
+      Range{"half_space_boundary_rad", c.half_space_boundary_rad, 0.0, 1.5},
       Range{"start_sigma_v_m_s", c.start_sigma_v_m_s, 1e-3, 10.0},
       Range{"start_sigma_tilt_rad", c.start_sigma_tilt_rad, 1e-4, 1.0},
       Range{"rest_s", c.rest_s, 0.02, 10.0},
       Range{"lost_nis", c.lost_nis, 1.0, 1e6},
+      Range{"lost_first_nis", c.lost_first_nis, 1.0, 1e6},
       Range{"lost_relative_sigma", c.lost_relative_sigma, 0.01, 10.0},
       Range{"lost_range_m", c.lost_range_m, 0.1, 10.0},
   };

@@ -13,7 +13,12 @@ namespace {
 // Notation: E earth, S sensor, M emitter.
 
 using Index = CoilInertialIndex;
-constexpr int kBackgroundAfter = 3;  // samples that end a pulse
+constexpr int kBackgroundAfter = 3;   // samples that end a pulse
+constexpr double kCurrentOff = 0.05;  // of what was stated
+constexpr double kBackgroundStep_tesla = 5e-6;
+constexpr double kLeastBackground_tesla = 20e-6;
+constexpr double kMostBackground_tesla = 80e-6;
+constexpr auto kDisturbedFor = std::chrono::seconds(1);
 const Eigen::Vector3d kGravity_E(0.0, 0.0, -9.81);
 
 InertialStates SensorStates() {
@@ -45,6 +50,12 @@ bool InertialFinite(const sensing::CoilFrame& frame) {
           (frame.emitter_gyro_rad_s.allFinite() && frame.emitter_accel_m_s2.allFinite()));
 }
 
+// A current that was measured and is not the one that was stated.
+bool IsCurrentOff(const sensing::CoilDrive& drive) {
+  return drive.coil >= 0 && std::isfinite(drive.measured_a) &&
+         !(std::abs(drive.measured_a - drive.current_a) <= kCurrentOff * std::abs(drive.current_a));
+}
+
 }  // namespace
 
 CoilInertialFilter::CoilInertialFilter(const CoilInertialConfig& config)
@@ -66,6 +77,9 @@ CoilUpdateReport CoilInertialFilter::Update(const sensing::CoilFrame& given) {
     return report;
   }
   sensing::CoilFrame frame = given;
+  if (IsCurrentOff(frame.drive) || !std::isfinite(frame.drive.current_a)) {
+    frame.drive.settled = false;
+  }
   double inflation = frame.inertial_saturated ? 30.0 * 30.0 : 1.0;
   const bool finite = InertialFinite(frame);
   if (!finite) {
@@ -101,6 +115,7 @@ CoilUpdateReport CoilInertialFilter::Update(const sensing::CoilFrame& given) {
     report.phase = phase_;
     return report;
   }
+  GuardCovariance(report);
   if (phase_ == CoilPhase::kAcquiring) {
     Acquire(frame, report);
   } else {
@@ -254,6 +269,12 @@ void CoilInertialFilter::UseSample(const sensing::CoilFrame& frame, CoilUpdateRe
     const Eigen::Matrix3d S = record.H * PHt + R_noise;
     const Eigen::Vector3d weighted = S.llt().solve(record.nu);
     const double nis = record.nu.dot(weighted);
+    if (i == 0 && nis > config_.gate.downweight_above_nis && frame.drive.coil >= 0 &&
+        h.coil_tesla > 6.0 * config_.sigma_mag_tesla && FitsWithoutCoil(frame)) {
+      report.coil_silent = true;
+      report.verdict = CoilFrameVerdict::kInertialOnly;
+      return;
+    }
     step = PHt * weighted / std::max(1.0, nis / config_.gate.downweight_above_nis);
     const double moved_m = step.segment<3>(Index::kP).norm();
     if (moved_m > limit_m) {
@@ -276,8 +297,35 @@ void CoilInertialFilter::UseSample(const sensing::CoilFrame& frame, CoilUpdateRe
     report.verdict = CoilFrameVerdict::kInertialOnly;
   }
   const double background_tesla = state_.background_earth_tesla.norm();
-  if (background_tesla < 20e-6 || background_tesla > 80e-6) {
-    disturbed_until_ = frame.measured_at + std::chrono::seconds(1);
+  const bool stepped = frame.drive.coil < 0 && record.nu.norm() > kBackgroundStep_tesla;
+  if (background_tesla < kLeastBackground_tesla || background_tesla > kMostBackground_tesla ||
+      stepped) {
+    disturbed_until_ = frame.measured_at + kDisturbedFor;
+  }
+}
+
+// The field without any coil explains the reading, which the field with it does not.
+bool CoilInertialFilter::FitsWithoutCoil(const sensing::CoilFrame& frame) const {
+  const CoilPrediction h = PredictCoilSample(config_.source, {}, state_);
+  const Eigen::Vector3d nu = frame.mag_tesla - h.field_tesla;
+  Eigen::Matrix3d S = h.H * P_ * h.H.transpose();
+  S.diagonal().array() += config_.sigma_mag_tesla * config_.sigma_mag_tesla;
+  return nu.dot(S.llt().solve(nu)) <= config_.gate.downweight_above_nis;
+}
+
+void CoilInertialFilter::GuardCovariance(CoilUpdateReport& report) {
+  const auto variances = P_.diagonal();
+  if ((variances.array() >= 0.0).all()) {
+    return;
+  }
+  // What is left of it says how large the errors are, and not how they hang together.
+  P_ = CoilCovariance(variances.cwiseAbs().asDiagonal());
+  report.rebuilt = true;
+  ++rebuilds_;
+  record_count_ = 0;
+  if (phase_ == CoilPhase::kTracking) {
+    record_count_ = 1;
+    records_[0].chain_begins = true;
   }
 }
 

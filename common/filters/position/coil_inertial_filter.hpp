@@ -37,6 +37,10 @@ struct CoilUpdateReport {
   bool lost = false;       ///< track was lost at this frame
   bool acquired = false;   ///< a track begins at this frame
   bool disturbed = false;  ///< the background is not the earth's
+  /// The source says that a coil is on, and the field says that none is: the sample was not used.
+  bool coil_silent = false;
+  bool coil_alarm = false;  ///< one of the coils was silent in its last three pulses or more
+  bool rebuilt = false;     ///< the covariance was not positive: only its diagonal was kept
 };
 
 /// Position and orientation of a sensor from a source of three coils, tightly coupled with the
@@ -61,9 +65,16 @@ class CoilInertialFilter {
     return {records_.data(), record_count_};
   }
   [[nodiscard]] int losses() const { return losses_; }
+  /// Times that the covariance was rebuilt.
+  [[nodiscard]] int rebuilds() const { return rebuilds_; }
+
+  /// From now on the side of a new track is that of the last one.
+  void ForgetHalfSpace() { config_.half_space.reset(); }
 
   /// Displaces the estimate without telling the covariance; for tests of recovery.
   void Disturb(const CoilVector& error) { state_ = Plus(state_, error); }
+  /// Overwrites the covariance; for tests of recovery.
+  void DisturbCovariance(const CoilCovariance& P) { P_ = P; }
 
  private:
   explicit CoilInertialFilter(const CoilInertialConfig& config);
@@ -75,8 +86,11 @@ class CoilInertialFilter {
   void Resume(const sensing::CoilFrame& frame, const CoilMotion& motion);
   void EnterTracking(const sensing::CoilFrame& frame);
   void UseSample(const sensing::CoilFrame& frame, CoilUpdateReport& report);
+  [[nodiscard]] bool FitsWithoutCoil(const sensing::CoilFrame& frame) const;
   void UseGauges(const sensing::CoilFrame& frame);
+  void GuardCovariance(CoilUpdateReport& report);
   void WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report);
+  void WatchPulses(const sensing::CoilFrame& frame, CoilUpdateReport& report);
   void Lose(CoilUpdateReport& report);
   [[nodiscard]] CoilPath PathNow() const {
     return {state_.q_earth_sensor, state_.q_earth_emitter, state_.p_earth_m};
@@ -116,9 +130,15 @@ class CoilInertialFilter {
   double pulse_nis_ = 0.0;
   int pulse_samples_ = 0;
   std::array<double, 3> pulse_means_{};
+  std::array<double, 4> pulse_firsts_{};  // NIS of the first sample of each
   int pulses_seen_ = 0;
+  int silent_samples_ = 0;               // of the pulse that is on
+  int pulsed_coil_ = -1;                 // the coil of that pulse
+  int silent_pulses_ = 0;                // in a row, of any coil
+  std::array<int, 3> silent_of_coil_{};  // in a row, of each
   int rejected_in_a_row_ = 0;
   int losses_ = 0;
+  int rebuilds_ = 0;
   int attempts_ = 0;  // of this re-acquisition
 };
 

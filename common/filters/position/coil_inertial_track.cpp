@@ -12,6 +12,7 @@ namespace {
 // Notation: E earth, S sensor, M emitter. The beginning and the end of a track.
 
 using Index = CoilInertialIndex;
+constexpr int kSilentPulses = 3;
 
 }  // namespace
 
@@ -42,6 +43,7 @@ void CoilInertialFilter::Acquire(const sensing::CoilFrame& frame, CoilUpdateRepo
   HemisphereRule rule;
   if (config_.half_space) {
     rule.half_space = config_.half_space;
+    rule.boundary_rad = config_.half_space_boundary_rad;
   } else if (ever_tracked_) {
     const CollectedPulse& middle = collector_.pulses()[1];
     rule.predicted_emitter_m = middle.path.q_earth_emitter.conjugate() * middle.path.p_earth_m;
@@ -167,16 +169,43 @@ void CoilInertialFilter::EnterTracking(const sensing::CoilFrame& frame) {
   at_rest_ = false;
   pulse_nis_ = 0.0;
   pulse_samples_ = pulses_seen_ = rejected_in_a_row_ = 0;
+  silent_samples_ = silent_pulses_ = 0;
+  silent_of_coil_.fill(0);
   gravity_at_ = background_at_ = frame.measured_at;
   record_count_ = 1;
   records_[0].chain_begins = true;
   records_[0].measurement.fused = false;
 }
 
+void CoilInertialFilter::WatchPulses(const sensing::CoilFrame& frame, CoilUpdateReport& report) {
+  if (frame.drive.coil >= 0) {
+    pulsed_coil_ = frame.drive.coil;
+    silent_samples_ += report.coil_silent ? 1 : 0;
+  } else if (silent_samples_ > 0 || pulse_samples_ > 0) {
+    int& of_coil = silent_of_coil_[static_cast<std::size_t>(pulsed_coil_)];
+    const bool silent = silent_samples_ > pulse_samples_;
+    of_coil = silent ? of_coil + 1 : 0;
+    silent_pulses_ = silent ? silent_pulses_ + 1 : 0;
+    silent_samples_ = 0;
+  }
+  report.coil_alarm =
+      *std::max_element(silent_of_coil_.begin(), silent_of_coil_.end()) >= kSilentPulses;
+}
+
 void CoilInertialFilter::WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report) {
+  WatchPulses(frame, report);
+  if (silent_pulses_ >= kSilentPulses) {
+    Lose(report);  // the source is off, or the sensor is far from where it is taken to be
+    return;
+  }
   if (frame.drive.coil >= 0) {
     if (frame.drive.settled && report.nis > 0.0) {
       constexpr double kMost = 100.0;  // one outlier is no loss of track
+      constexpr double kMostFirst = 60.0;
+      if (pulse_samples_ == 0) {
+        pulse_firsts_[static_cast<std::size_t>(pulses_seen_) % pulse_firsts_.size()] =
+            std::min(report.nis, kMostFirst);
+      }
       pulse_nis_ += std::min(report.nis, kMost);
       ++pulse_samples_;
     }
@@ -186,7 +215,10 @@ void CoilInertialFilter::WatchTrack(const sensing::CoilFrame& frame, CoilUpdateR
     pulse_nis_ = 0.0;
     pulse_samples_ = 0;
     const double mean = (pulse_means_[0] + pulse_means_[1] + pulse_means_[2]) / 3.0;
-    if (pulses_seen_ >= 3 && mean / 3.0 > config_.lost_nis) {
+    const double first =
+        (pulse_firsts_[0] + pulse_firsts_[1] + pulse_firsts_[2] + pulse_firsts_[3]) / 4.0;
+    if ((pulses_seen_ >= 3 && mean / 3.0 > config_.lost_nis) ||
+        (pulses_seen_ >= 4 && first / 3.0 > config_.lost_first_nis)) {
       Lose(report);
       return;
     }

@@ -48,22 +48,33 @@ std::size_t EpochsOf(std::span<const sensing::MargSample> samples, double block_
   return std::min(samples.size(), static_cast<std::size_t>(length_s / block_s) + 1);
 }
 
-// Mean of what was seen in [from, to]; nothing when nothing was.
-std::optional<Eigen::Vector3d> MeanMarker(std::span<const sensing::MarkerPosition> markers,
-                                          Time from, Time to) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+struct SeenAtRest {
+  Time at{};  ///< of the first
+  Eigen::Vector3d p_earth_marker_m = Eigen::Vector3d::Zero();
+};
+
+// Mean over half a second of the marker from when it was first seen in the rest [from, to]; nothing
+// when it was not.
+std::optional<SeenAtRest> MarkerAtRest(std::span<const sensing::MarkerPosition> markers, Time from,
+                                       Time to) {
+  SeenAtRest seen;
   int n = 0;
   for (const auto& marker : markers) {
-    if (marker.measured_at >= from && marker.measured_at <= to && marker.visible &&
-        marker.p_earth_marker_m.allFinite()) {
-      sum += marker.p_earth_marker_m;
-      ++n;
+    const bool counts = marker.measured_at >= from && marker.measured_at <= to && marker.visible &&
+                        marker.p_earth_marker_m.allFinite();
+    if (!counts || (n > 0 && marker.measured_at > seen.at + DurationFromSeconds(0.5))) {
+      continue;
     }
+    if (n++ == 0) {
+      seen.at = marker.measured_at;
+    }
+    seen.p_earth_marker_m += marker.p_earth_marker_m;
   }
   if (n == 0) {
     return std::nullopt;
   }
-  return sum / n;
+  seen.p_earth_marker_m /= n;
+  return seen;
 }
 
 // Where the filter found its attitude, or the rest before it.
@@ -83,17 +94,16 @@ std::optional<Begin> FindBegin(const OpticalInertialConfig& config,
     return begin;
   }
   const OpticalStartResult& start = *filter.start();
-  const auto p =
-      MeanMarker(markers, start.rest_begun_at, start.rest_begun_at + DurationFromSeconds(0.5));
-  if (!p) {
+  const auto seen = MarkerAtRest(markers, start.rest_begun_at, start.rest_ended_at);
+  if (!seen) {
     return begin;
   }
   at_rest = true;
-  begin->at = start.rest_begun_at;
+  begin->at = seen->at;
   begin->state.navigation.q_earth_sensor = start.q_earth_sensor_at_rest;
   begin->state.navigation.v_earth_sensor_m_s.setZero();
   begin->state.navigation.p_earth_sensor_m =
-      *p - start.q_earth_sensor_at_rest * begin->state.p_sensor_marker_m;
+      seen->p_earth_marker_m - start.q_earth_sensor_at_rest * begin->state.p_sensor_marker_m;
   return begin;
 }
 

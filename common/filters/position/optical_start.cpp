@@ -82,6 +82,7 @@ void OpticalStart::CollectRest(Time at, const GatedInertial& inertial) {
     rest_gyro_ += block_gyro_;
     rest_force_ += block_force_;
     Level(rest_force_ / rest_n_, rest_gyro_ / rest_n_, true, rest_begun_at_);
+    rest_ended_at_ = at;
     for (Window& window : windows_) {
       window.open = false;
     }
@@ -169,6 +170,7 @@ OpticalStartResult OpticalStart::Turned(double heading_rad) const {
   out.gyro_bias_rad_s = gyro_bias_rad_s_;
   out.had_rest = had_rest_;
   out.rest_begun_at = rest_begun_at_;
+  out.rest_ended_at = rest_ended_at_;
   out.q_earth_sensor_at_rest = (q_EL * q_LS_rest_).normalized();
   return out;
 }

@@ -16,8 +16,9 @@ struct OpticalStartResult {
   Eigen::Vector3d gyro_bias_rad_s = Eigen::Vector3d::Zero();
   double heading_rad = 0.0;  ///< of the optical frame in the levelled one
   bool had_rest = false;     ///< levelled and gyro bias measured at rest
-  // For those who can go back to the rest (offline): its beginning and the state in it.
+  // For those who can go back to the rest (offline): when it was and the state in it.
   Time rest_begun_at{};
+  Time rest_ended_at{};
   Eigen::Quaterniond q_earth_sensor_at_rest = Eigen::Quaterniond::Identity();
 };
 
@@ -79,6 +80,7 @@ class OpticalStart {
   Eigen::Quaterniond q_LS_ = Eigen::Quaterniond::Identity();  // levelled frame L from sensor
   Eigen::Quaterniond q_LS_rest_ = Eigen::Quaterniond::Identity();
   Time rest_begun_at_{};
+  Time rest_ended_at_{};
   Eigen::Vector3d gyro_bias_rad_s_ = Eigen::Vector3d::Zero();
   InertialReading last_;
   double since_start_s_ = 0.0;

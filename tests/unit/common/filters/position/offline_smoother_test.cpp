@@ -34,6 +34,20 @@ TEST(OfflineSmootherTest, GoesBackToTheRestBeforeTheMotion) {
   EXPECT_LT(worst_m, 2e-3);
 }
 
+TEST(OfflineSmootherTest, GoesBackToWhereTheMarkerIsFirstSeenInTheRest) {
+  OpticalSceneConfig config;
+  config.motion_s = 10.0;
+  config.gyro_noise_rad_s = 0.002;
+  config.accel_noise_m_s2 = 0.03;
+  config.marker_noise_m = 1.5e-4;
+  OpticalScene scene(config);
+  scene.Hide(0, 300);  // half of the rest
+  const OfflineResult result = SmoothOffline({}, scene.samples, scene.markers);
+  EXPECT_TRUE(result.began_at_rest);
+  ASSERT_FALSE(result.estimates.empty());
+  EXPECT_NEAR(ToSeconds(result.estimates.front().at - Time{}), 300.0 / config.rate_hz, 0.1);
+}
+
 TEST(OfflineSmootherTest, WithoutMotionThereIsNoResult) {
   OpticalSceneConfig config;
   config.motion_s = 2.0;
