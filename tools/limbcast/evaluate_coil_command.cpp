@@ -2,12 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/simulation/random.hpp"
+#include "services/gateway/drivers/replay/recording_reader.hpp"
+#include "tools/limbcast/evaluate/coil_endurance.hpp"
+#include "tools/limbcast/evaluate/coil_recording.hpp"
 #include "tools/limbcast/evaluate/coil_report.hpp"
+#include "tools/limbcast/evaluate/progress_bar.hpp"
+#include "tools/limbcast/evaluate/recordings.hpp"
 #include "tools/limbcast/report/report_text.hpp"
 
 namespace limbcast::tool {
@@ -16,13 +24,28 @@ namespace {
 struct CoilOptions {
   std::uint64_t seed = simulation::kDefaultSeed;
   std::string only;
+  std::string data;
+  double hours = 0.0;
+  int runs = 0;
   std::string json;
 };
 
-int EvaluateCoils(const CoilOptions& options) {
+constexpr const char* kCommand = "limbcast evaluate coil";
+constexpr std::array kNoises = {CoilNoise::kThesis, CoilNoise::kModern};
+
+int Save(const CoilOptions& options, const nlohmann::json& json) {
+  if (!options.json.empty()) {
+    if (Status saved = SaveText(options.json, json.dump(2) + "\n"); !saved) {
+      return Refuse(kCommand, saved.error());
+    }
+  }
+  return 0;
+}
+
+int EvaluateExperiments(const CoilOptions& options) {
   const std::vector<CoilExperiment> experiments = MakeCoilExperiments(options.seed);
   std::vector<CoilResult> results;
-  for (const CoilNoise noise : {CoilNoise::kThesis, CoilNoise::kModern}) {
+  for (const CoilNoise noise : kNoises) {
     for (const CoilExperiment& experiment : experiments) {
       if (experiment.name.find(options.only) != std::string::npos) {
         results.push_back(EvaluateCoil(experiment, noise, options.seed));
@@ -30,13 +53,74 @@ int EvaluateCoils(const CoilOptions& options) {
     }
   }
   fmt::print("{}", CoilTable(experiments, results));
-  if (!options.json.empty()) {
-    const auto json = CoilJson(experiments, results, options.seed);
-    if (Status saved = SaveText(options.json, json.dump(2) + "\n"); !saved) {
-      return Refuse("limbcast evaluate coil", saved.error());
+  return Save(options, CoilJson(experiments, results, options.seed));
+}
+
+int EvaluateRecordings(const CoilOptions& options) {
+  const auto files = RecordingsIn(options.data);
+  if (!files) {
+    return Refuse(kCommand, files.error());
+  }
+  std::vector<CoilResult> results;
+  for (const std::filesystem::path& file : *files) {
+    if (file.stem().string().find(options.only) == std::string::npos) {
+      continue;
+    }
+    const auto recording = gateway::ReadRecording(file);
+    if (!recording) {
+      return Refuse(kCommand, recording.error());
+    }
+    const auto gaps = GapTrialOf(*recording, file.stem().string());
+    for (const CoilNoise noise : kNoises) {
+      const auto trial =
+          gaps ? MakeCoilTrial(*gaps, noise, options.seed) : std::optional<CoilTrial>();
+      if (!trial) {
+        return Refuse(kCommand,
+                      {ErrorCode::kCorruptData,
+                       file.string() + " has no motion with a known position to compare with"});
+      }
+      results.push_back(EvaluateTrial(*trial));
     }
   }
-  return 0;
+  if (results.empty()) {
+    return Refuse(kCommand, {ErrorCode::kNotFound, "no recording in " + options.data +
+                                                       " has a name with '" + options.only + "'"});
+  }
+  fmt::print("{}", CoilTable({}, results));
+  return Save(options, CoilJson({}, results, options.seed));
+}
+
+int EvaluateEndurance(const CoilOptions& options) {
+  nlohmann::json json = {{"seed", options.seed}};
+  if (options.hours > 0.0) {
+    const double all_s = 3600.0 * options.hours;
+    const CoilEndurance one = RunCoilSubject(options.seed, all_s, 0.0, [all_s](double t_s) {
+      ShowProgress(static_cast<std::size_t>(t_s), static_cast<std::size_t>(all_s), "one subject");
+    });
+    fmt::print("{}", EnduranceText("one subject", one));
+    json["one_subject"] = EnduranceJson(one);
+  }
+  if (options.runs > 0) {
+    const auto all = static_cast<std::size_t>(options.runs);
+    const CoilEndurance many = RunCoilSubjects(options.seed, options.runs, [all](int done) {
+      ShowProgress(static_cast<std::size_t>(done), all, "subjects of 20 s");
+    });
+    fmt::print("{}", EnduranceText("subjects of 20 s", many));
+    json["subjects"] = EnduranceJson(many);
+  }
+  return Save(options, json);
+}
+
+int EvaluateCoils(const CoilOptions& options) {
+  const bool endurance = options.hours > 0.0 || options.runs > 0;
+  if (endurance && !options.data.empty()) {
+    return Refuse(kCommand, {ErrorCode::kInvalidArgument,
+                             "--data is for recordings, --hours and --runs are for simulations"});
+  }
+  if (endurance) {
+    return EvaluateEndurance(options);
+  }
+  return options.data.empty() ? EvaluateExperiments(options) : EvaluateRecordings(options);
 }
 
 }  // namespace
@@ -45,11 +129,22 @@ SubCommand AddEvaluateCoil(CLI::App& evaluate) {
   auto options = std::make_shared<CoilOptions>();
   CLI::App* app = evaluate.add_subcommand(
       "coil",
-      "Errors of the coil tracker in simulations of the experiments it was published with: "
-      "magnetic only, fused forward, with a lag, smoothed.\nExample:\n  limbcast evaluate coil "
-      "--json /tmp/coil.json");
+      "Errors of the coil tracker: in simulations of the experiments it was published with, on "
+      "recorded inertial data under simulated pulses (--data), or over long time and many subjects "
+      "(--hours, --runs); magnetic only, fused forward, with a lag, smoothed.\nExamples:\n"
+      "  limbcast evaluate coil --json /tmp/coil.json\n"
+      "  limbcast evaluate coil --data ../shared/data/broad --only 16\n"
+      "  limbcast evaluate coil --hours 10 --runs 1000");
   app->add_option("--seed", options->seed, "Seed of motions, errors and noise");
-  app->add_option("--only", options->only, "Only experiments whose name has this in it");
+  app->add_option("--only", options->only,
+                  "Only experiments or recordings whose name has this in it");
+  app->add_option("--data", options->data,
+                  "A recording with optical truth, or a folder of recordings");
+  app->add_option("--hours", options->hours, "Simulated hours of one subject")
+      ->check(CLI::Range(0.0, 1000.0));
+  app->add_option("--runs", options->runs,
+                  "Simulated subjects of 20 s each; track is taken away from half of them")
+      ->check(CLI::Range(0, 1'000'000));
   app->add_option("--json", options->json, "File for the figures");
   return {.app = app, .run = [options] { return EvaluateCoils(*options); }};
 }

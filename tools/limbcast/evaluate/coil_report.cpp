@@ -36,21 +36,39 @@ std::string CoilTable(std::span<const CoilExperiment> experiments,
         "publ. magn.", "publ. fused", "valid", "losses", "NEES");
     for (const CoilResult& r : results) {
       const CoilExperiment* e = ExperimentOf(experiments, r.experiment);
-      if (r.noise != noise || e == nullptr) {
+      if (r.noise != noise) {
         continue;
       }
-      text += fmt::format("{:<20} {:>5.2f}", r.experiment, r.mean_range_m);
+      text += fmt::format("{:<20.20} {:>5.2f}", r.experiment, r.mean_range_m);
       for (const CoilFigure& f : r.figures) {
         text += fmt::format(" | {:>7.1f} {:>6.1f} {:>5.2f}", kMmPerM * f.position_m,
                             kMmPerM * f.distance_m, kDegPerRad * f.orientation_rad);
       }
-      text +=
-          fmt::format(" | {:>5.1f} {:>5.1f} {:>5.1f} {:>4.1f} | {:>4.0f}% {:>6} {:>5.1f}\n",
-                      e->published_magnetic_mm, e->published_magnetic_deg, e->published_fused_mm,
-                      e->published_fused_deg, 100.0 * r.tracked, r.losses, r.nees);
+      text += e == nullptr ? fmt::format(" | {:^11} {:^10}", "-", "-")
+                           : fmt::format(" | {:>5.1f} {:>5.1f} {:>5.1f} {:>4.1f}",
+                                         e->published_magnetic_mm, e->published_magnetic_deg,
+                                         e->published_fused_mm, e->published_fused_deg);
+      text += fmt::format(" | {:>4.0f}% {:>6} {:>5.1f}\n", 100.0 * r.tracked, r.losses, r.nees);
     }
   }
   return text;
+}
+
+std::string EnduranceText(const std::string& what, const CoilEndurance& e) {
+  return fmt::format(
+      "{}: {:.2f} h in {} runs, forward {:.1f} mm RMS; diverged {}, frames on the wrong side {}, "
+      "losses declared {}\n  track taken away {} times, back after {:.2f} s at most, later than 2 "
+      "s "
+      "{}; moved to the mirror image {} times, later than 2 s {}\n",
+      what, e.hours, e.runs, kMmPerM * e.rms_m, e.diverged, e.flips, e.losses, e.injected,
+      e.slowest_s, e.late, e.mirrored, e.mirrored_late);
+}
+
+nlohmann::json EnduranceJson(const CoilEndurance& e) {
+  return {{"hours", e.hours},         {"runs", e.runs},         {"diverged", e.diverged},
+          {"flips", e.flips},         {"losses", e.losses},     {"injected", e.injected},
+          {"late", e.late},           {"mirrored", e.mirrored}, {"mirrored_late", e.mirrored_late},
+          {"slowest_s", e.slowest_s}, {"rms_m", e.rms_m}};
 }
 
 nlohmann::json CoilJson(std::span<const CoilExperiment> experiments,

@@ -4,17 +4,23 @@
 #include <span>
 #include <string>
 
+#include "tools/limbcast/evaluate/coil_endurance.hpp"
 #include "tools/limbcast/evaluate/coil_experiments.hpp"
 #include "tools/limbcast/evaluate/coil_trial.hpp"
 
 namespace limbcast::tool {
 
 /// Tables for a terminal: a row for each experiment; of each method the 3-D position error and the
-/// distance error in mm and the orientation error in degrees (RMS), beside what was published.
+/// distance error in mm and the orientation error in degrees (RMS), beside what was published of an
+/// experiment of the same name.
 [[nodiscard]] std::string CoilTable(std::span<const CoilExperiment> experiments,
                                     std::span<const CoilResult> results);
 /// The same figures in metres and radians.
 [[nodiscard]] nlohmann::json CoilJson(std::span<const CoilExperiment> experiments,
                                       std::span<const CoilResult> results, std::uint64_t seed);
+
+/// Two lines for a terminal.
+[[nodiscard]] std::string EnduranceText(const std::string& what, const CoilEndurance& endurance);
+[[nodiscard]] nlohmann::json EnduranceJson(const CoilEndurance& endurance);
 
 }  // namespace limbcast::tool

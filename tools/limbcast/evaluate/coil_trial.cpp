@@ -16,16 +16,6 @@ using simulation::CoilTick;
 constexpr double kLag_s = 0.6;
 constexpr double kScoredFrom_s = 5.0;
 
-struct Setting {
-  double sigma_tesla;
-  simulation::CoilPulseConfig pulses;
-};
-
-Setting SettingOf(CoilNoise noise) {
-  return noise == CoilNoise::kThesis ? Setting{50e-9, simulation::ThesisPulses()}
-                                     : Setting{15e-9, simulation::BipolarPulses()};
-}
-
 class Score {
  public:
   void Add(const Eigen::Vector3d& p_emitter_m, const Eigen::Quaterniond& q_sensor_emitter,
@@ -49,24 +39,20 @@ class Score {
   CoilFigure sum_;
 };
 
-bool IsScored(const CoilTick& tick) {
-  return ToSeconds(tick.frame.measured_at.time_since_epoch()) >= kScoredFrom_s;
-}
-
-std::size_t TickAt(const std::vector<CoilTick>& ticks, Time at, double rate_hz) {
-  const double k = ToSeconds(at - ticks.front().frame.measured_at) * rate_hz;
+std::size_t TickAt(const CoilTrial& trial, Time at) {
+  const double k = ToSeconds(at - trial.ticks.front().frame.measured_at) * trial.rate_hz;
   return static_cast<std::size_t>(std::lround(k));
 }
 
 // Gyro attitudes for the magnetic tracker: the filter's own inertial path is not used.
-CoilFigure MagneticOnly(const std::vector<CoilTick>& ticks, const CoilExperiment& experiment,
-                        const Setting& setting, const sensing::CoilSource& source, double rate_hz) {
+CoilFigure MagneticOnly(const CoilTrial& trial) {
   constexpr int kBackgroundAfter = 10;
-  filters::CoilPulseCollector collector(setting.sigma_tesla, kBackgroundAfter);
+  const auto& ticks = trial.ticks;
+  filters::CoilPulseCollector collector(trial.config.sigma_mag_tesla, kBackgroundAfter);
   filters::CoilPath path;
   Score score;
   filters::HemisphereRule rule;
-  rule.half_space = experiment.half_space;
+  rule.half_space = trial.config.half_space;
   rule.boundary_rad = 0.0;
   filters::CoilPoseConfig config;
   config.accept_cost = 1e9;  // motion between the pulses is in the cost: it is what is measured
@@ -75,13 +61,14 @@ CoilFigure MagneticOnly(const std::vector<CoilTick>& ticks, const CoilExperiment
     const sensing::CoilFrame& frame = ticks[k].frame;
     if (k > 0) {
       const sensing::CoilFrame& last = ticks[k - 1].frame;
+      const double half_s = 0.5 / trial.rate_hz;
       path.q_earth_sensor =
-          (path.q_earth_sensor * math::ExpSO3(0.5 / rate_hz * (last.gyro_rad_s + frame.gyro_rad_s)))
+          (path.q_earth_sensor * math::ExpSO3(half_s * (last.gyro_rad_s + frame.gyro_rad_s)))
               .normalized();
-      if (experiment.emitter_inertial) {
+      if (frame.emitter_inertial) {
         path.q_earth_emitter =
             (path.q_earth_emitter *
-             math::ExpSO3(0.5 / rate_hz * (last.emitter_gyro_rad_s + frame.emitter_gyro_rad_s)))
+             math::ExpSO3(half_s * (last.emitter_gyro_rad_s + frame.emitter_gyro_rad_s)))
                 .normalized();
       }
     }
@@ -89,11 +76,12 @@ CoilFigure MagneticOnly(const std::vector<CoilTick>& ticks, const CoilExperiment
       continue;
     }
     const auto burst = collector.Burst();
-    const std::size_t middle = TickAt(ticks, collector.pulses()[1].middle_at, rate_hz);
-    if (!burst || !IsScored(ticks[middle])) {
+    const std::size_t middle = TickAt(trial, collector.pulses()[1].middle_at);
+    if (!burst || trial.scored[middle] == 0) {
       continue;
     }
-    const filters::CoilPose pose = filters::SolveCoilPose(config, source, *burst, rule);
+    const filters::CoilPose pose =
+        filters::SolveCoilPose(config, trial.config.source, *burst, rule);
     score.Add(pose.p_emitter_sensor_m, pose.q_sensor_emitter, ticks[middle]);
   }
   return score.Figure();
@@ -101,28 +89,43 @@ CoilFigure MagneticOnly(const std::vector<CoilTick>& ticks, const CoilExperiment
 
 }  // namespace
 
-CoilResult EvaluateCoil(const CoilExperiment& experiment, CoilNoise noise, std::uint64_t seed) {
-  const Setting setting = SettingOf(noise);
-  simulation::CoilStreamConfig stream;
-  stream.pulses = setting.pulses;
-  stream.sensor = experiment.sensor;
-  stream.emitter = experiment.emitter;
-  stream.emitter_inertial = experiment.emitter_inertial;
-  stream.errors = simulation::CoilSensorErrors(setting.sigma_tesla);
-  // A room: the field changes by about 0.5 µT in a metre.
+double SigmaOf_tesla(CoilNoise noise) { return noise == CoilNoise::kThesis ? 50e-9 : 15e-9; }
+
+simulation::CoilPulseConfig PulsesOf(CoilNoise noise) {
+  return noise == CoilNoise::kThesis ? simulation::ThesisPulses() : simulation::BipolarPulses();
+}
+
+Eigen::Matrix3d DrawGradient_tesla_m(std::uint64_t seed) {
   simulation::Random random(seed, "gradient");
   Eigen::Matrix3d G = Eigen::Matrix3d::Zero();
   for (Eigen::Index i = 0; i < 3; ++i) {
     G.row(i) = 0.3e-6 * random.Gaussian3().transpose();
   }
   G = (0.5 * (G + G.transpose())).eval();
-  G -= G.trace() / 3.0 * Eigen::Matrix3d::Identity();
-  stream.gradient_tesla_m = G;
-  const auto ticks = simulation::SimulateCoil(stream, experiment.duration_s, seed);
+  return G - G.trace() / 3.0 * Eigen::Matrix3d::Identity();
+}
 
-  filters::CoilInertialConfig config;
+CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise, std::uint64_t seed) {
+  simulation::CoilStreamConfig stream;
+  stream.pulses = PulsesOf(noise);
+  stream.sensor = experiment.sensor;
+  stream.emitter = experiment.emitter;
+  stream.emitter_inertial = experiment.emitter_inertial;
+  stream.errors = simulation::CoilSensorErrors(SigmaOf_tesla(noise));
+  stream.gradient_tesla_m = DrawGradient_tesla_m(seed);
+  CoilTrial trial;
+  trial.name = experiment.name;
+  trial.noise = noise;
+  trial.rate_hz = stream.rate_hz;
+  trial.ticks = simulation::SimulateCoil(stream, experiment.duration_s, seed);
+  trial.scored.reserve(trial.ticks.size());
+  for (const CoilTick& tick : trial.ticks) {
+    const double at_s = ToSeconds(tick.frame.measured_at.time_since_epoch());
+    trial.scored.push_back(at_s >= kScoredFrom_s ? 1 : 0);
+  }
+  filters::CoilInertialConfig& config = trial.config;
   config.source = stream.source;
-  config.sigma_mag_tesla = setting.sigma_tesla;
+  config.sigma_mag_tesla = SigmaOf_tesla(noise);
   config.half_space = experiment.half_space;
   config.walk_background_tesla_rts = experiment.walk_background_tesla_rts;
   // The inertial units of CoilSensorErrors; scale and misalignment are 0.2 % each.
@@ -130,19 +133,24 @@ CoilResult EvaluateCoil(const CoilExperiment& experiment, CoilNoise noise, std::
   config.inertial.sigma_gyro_rad_s_rthz = 1e-3;
   config.inertial.k_accel = 4e-3;
   config.relative_field_error = 3e-3;
-  auto filter = filters::CoilInertialFilter::Make(config);
-  Expects(filter.ok(), "the default configuration");
-  filters::CoilFixedLag fixed_lag(kLag_s, stream.rate_hz);
+  return trial;
+}
+
+CoilResult EvaluateTrial(const CoilTrial& trial) {
+  auto filter = filters::CoilInertialFilter::Make(trial.config);
+  Expects(filter.ok(), "a valid configuration");
+  filters::CoilFixedLag fixed_lag(kLag_s, trial.rate_hz);
   filters::CoilIntervalSmoother smoother;
   std::array<Score, kCoilMethodCount> scores;
   const auto score = [&](CoilMethod method) -> Score& {
     return scores[static_cast<std::size_t>(method)];
   };
   CoilResult result;
-  result.experiment = experiment.name;
-  result.noise = noise;
+  result.experiment = trial.name;
+  result.noise = trial.noise;
   double scored = 0.0;
-  for (const CoilTick& tick : ticks) {
+  for (std::size_t k = 0; k < trial.ticks.size(); ++k) {
+    const CoilTick& tick = trial.ticks[k];
     filter->Update(tick.frame);
     const bool valid = filter->phase() == filters::CoilPhase::kTracking;
     const filters::CoilEstimate now =
@@ -150,12 +158,13 @@ CoilResult EvaluateCoil(const CoilExperiment& experiment, CoilNoise noise, std::
     smoother.Add(*filter, tick.frame.measured_at);
     filters::CoilEstimate lagged;
     if (fixed_lag.Update(*filter, tick.frame.measured_at, lagged) && lagged.valid) {
-      const CoilTick& then = ticks[TickAt(ticks, lagged.measured_at, stream.rate_hz)];
-      if (IsScored(then)) {
-        score(CoilMethod::kFixedLag).Add(lagged.p_emitter_sensor_m, lagged.q_sensor_emitter, then);
+      const std::size_t then = TickAt(trial, lagged.measured_at);
+      if (trial.scored[then] != 0) {
+        score(CoilMethod::kFixedLag)
+            .Add(lagged.p_emitter_sensor_m, lagged.q_sensor_emitter, trial.ticks[then]);
       }
     }
-    if (!IsScored(tick)) {
+    if (trial.scored[k] == 0) {
       continue;
     }
     scored += 1.0;
@@ -172,18 +181,21 @@ CoilResult EvaluateCoil(const CoilExperiment& experiment, CoilNoise noise, std::
   result.tracked /= std::max(1.0, scored);
   result.losses = filter->losses();
   const auto smoothed = smoother.Smooth();
-  for (std::size_t k = 0; k < ticks.size(); ++k) {
-    if (smoothed[k].valid && IsScored(ticks[k])) {
+  for (std::size_t k = 0; k < trial.ticks.size(); ++k) {
+    if (smoothed[k].valid && trial.scored[k] != 0) {
       score(CoilMethod::kSmoothed)
-          .Add(smoothed[k].p_emitter_sensor_m, smoothed[k].q_sensor_emitter, ticks[k]);
+          .Add(smoothed[k].p_emitter_sensor_m, smoothed[k].q_sensor_emitter, trial.ticks[k]);
     }
   }
   for (std::size_t i = 0; i < kCoilMethodCount; ++i) {
     result.figures[i] = scores[i].Figure();
   }
-  result.figures[static_cast<std::size_t>(CoilMethod::kMagneticOnly)] =
-      MagneticOnly(ticks, experiment, setting, stream.source, stream.rate_hz);
+  result.figures[static_cast<std::size_t>(CoilMethod::kMagneticOnly)] = MagneticOnly(trial);
   return result;
+}
+
+CoilResult EvaluateCoil(const CoilExperiment& experiment, CoilNoise noise, std::uint64_t seed) {
+  return EvaluateTrial(MakeCoilTrial(experiment, noise, seed));
 }
 
 }  // namespace limbcast::tool

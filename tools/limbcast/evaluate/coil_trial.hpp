@@ -3,7 +3,9 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "common/filters/position/coil_inertial_config.hpp"
 #include "tools/limbcast/evaluate/coil_experiments.hpp"
 
 namespace limbcast::tool {
@@ -38,9 +40,29 @@ struct CoilResult {
   double nees = 0.0;  ///< mean |error|² / trace of the covariance, forward; 1 when it is honest
 };
 
-/// Simulates the experiment and lets all methods run. Scored from 5 s on (2 s after the motion
-/// began). Magnetic only: least squares on each three pulses, columns turned by gyro, no inertial
-/// displacement, compared in the middle of the second pulse.
+/// Frames with their truth, and the filter that is to follow them.
+struct CoilTrial {
+  std::string name;
+  CoilNoise noise = CoilNoise::kThesis;
+  double rate_hz = 120.0;
+  std::vector<simulation::CoilTick> ticks;  ///< at least one, evenly spaced
+  std::vector<std::uint8_t> scored;         ///< 1: this tick counts
+  filters::CoilInertialConfig config;
+};
+
+/// Noise of one magnetometer sample, and pulses.
+[[nodiscard]] double SigmaOf_tesla(CoilNoise noise);
+[[nodiscard]] simulation::CoilPulseConfig PulsesOf(CoilNoise noise);
+/// A room: the field changes by about 0.3 µT in a metre, each component by each coordinate.
+[[nodiscard]] Eigen::Matrix3d DrawGradient_tesla_m(std::uint64_t seed);
+
+/// Lets all methods run. Magnetic only: least squares on each three pulses, columns turned by gyro,
+/// no inertial displacement, compared in the middle of the second pulse.
+[[nodiscard]] CoilResult EvaluateTrial(const CoilTrial& trial);
+
+/// Simulates the experiment and evaluates it from 5 s on (2 s after the motion began).
+[[nodiscard]] CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise,
+                                      std::uint64_t seed);
 [[nodiscard]] CoilResult EvaluateCoil(const CoilExperiment& experiment, CoilNoise noise,
                                       std::uint64_t seed);
 
