@@ -42,8 +42,14 @@ class AttitudeWatchdog {
   /// @param free_accel_m_s2  its acceleration in E with gravity removed by the attitude after it.
   [[nodiscard]] bool Add(const GatedSample& sample, const Eigen::Vector3d& free_accel_m_s2) {
     state_.pending_s += sample.dt_s;
-    if (sample.accel_valid && free_accel_m_s2.squaredNorm() < kMostFree_m_s2 * kMostFree_m_s2) {
-      state_.free_sum_m_s2 += free_accel_m_s2;
+    // Number by number: they were stored so a moment ago, and pairs would wait for the stores.
+    const double x = free_accel_m_s2[0];
+    const double y = free_accel_m_s2[1];
+    const double z = free_accel_m_s2[2];
+    if (sample.accel_valid && x * x + y * y + z * z < kMostFree_m_s2 * kMostFree_m_s2) {
+      state_.free_sum_m_s2[0] += x;
+      state_.free_sum_m_s2[1] += y;
+      state_.free_sum_m_s2[2] += z;
       ++state_.free_count;
     }
     return state_.pending_s >= kLookEvery_s;

@@ -132,10 +132,9 @@ template <typename T>
                                                      const kernel::Quaternion<T>& q,
                                                      const kernel::Vector<T>& h0,
                                                      const kernel::Vector<T>& b0, T rho2, T gain) {
-  const auto dv_E =
-      kernel::ReducedStepInEarth(kernel::EastInSensor(q), kernel::NorthInSensor(q),
-                                 kernel::UpInSensor(q), s.field_north, s.field_up, h0, b0, rho2);
-  return kernel::Normalised(kernel::OnePlusTimes(kernel::Scaled(dv_E, gain), q));
+  const auto step = kernel::MakeEarthStep(s.field_north, s.field_up, h0, b0, rho2, gain);
+  return kernel::NormalisedOnePlusTimes(
+      step.At(kernel::EastInSensor(q), kernel::NorthInSensor(q), kernel::UpInSensor(q)), q);
 }
 
 /// var ← (1 − α)² var + α² r/dt + growth: what the same gain would do to a scalar error.

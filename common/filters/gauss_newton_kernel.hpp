@@ -9,6 +9,9 @@ namespace limbcast::filters::kernel {
 /// The arithmetic of one Gauss–Newton tracker step on plain numbers. Eigen's packets cost more than
 /// they gain on single quaternions (components are stored one by one and loaded in pairs), and
 /// these functions vectorise over sensors. `T` is double, float, or a pack of them (lanes.hpp).
+///
+/// A step is as long as its chain of dependent operations from one attitude to the next: sums of
+/// four are added in pairs, and what does not depend on the attitude is worked out beside it.
 
 template <typename T>
 struct Vector {
@@ -55,30 +58,60 @@ template <typename T>
 /// q ⊗ (1, v).
 template <typename T>
 [[nodiscard]] inline Quaternion<T> TimesOnePlus(const Quaternion<T>& q, const Vector<T>& v) {
-  return {q.w - q.x * v.x - q.y * v.y - q.z * v.z, q.x + q.w * v.x + q.y * v.z - q.z * v.y,
-          q.y + q.w * v.y + q.z * v.x - q.x * v.z, q.z + q.w * v.z + q.x * v.y - q.y * v.x};
+  return {(q.w - q.x * v.x) - (q.y * v.y + q.z * v.z), (q.x + q.w * v.x) + (q.y * v.z - q.z * v.y),
+          (q.y + q.w * v.y) + (q.z * v.x - q.x * v.z), (q.z + q.w * v.z) + (q.x * v.y - q.y * v.x)};
 }
 
 /// (1, v) ⊗ q.
 template <typename T>
 [[nodiscard]] inline Quaternion<T> OnePlusTimes(const Vector<T>& v, const Quaternion<T>& q) {
-  return {q.w - v.x * q.x - v.y * q.y - v.z * q.z, q.x + v.x * q.w + v.y * q.z - v.z * q.y,
-          q.y + v.y * q.w + v.z * q.x - v.x * q.z, q.z + v.z * q.w + v.x * q.y - v.y * q.x};
+  return {(q.w - v.x * q.x) - (v.y * q.y + v.z * q.z), (q.x + v.x * q.w) + (v.y * q.z - v.z * q.y),
+          (q.y + v.y * q.w) + (v.z * q.x - v.x * q.z), (q.z + v.z * q.w) + (v.x * q.y - v.y * q.x)};
 }
 
-/// q/|q|. Close to length 1, where trackers stay, 1/√(1+e) is its series to e⁴: exact to rounding
-/// while |e| < 1e-3.
+/// |q|².
 template <typename T>
-[[nodiscard]] inline Quaternion<T> Normalised(const Quaternion<T>& q) {
+[[nodiscard]] inline T SquaredNorm(const Quaternion<T>& q) {
+  return (q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z);
+}
+template <typename T>
+[[nodiscard]] inline Quaternion<T> Scaled(const Quaternion<T>& q, T s) {
+  return {q.w * s, q.x * s, q.y * s, q.z * s};
+}
+
+/// 1/√(1+e). Close to 0, where trackers stay, its series to e⁴: exact to rounding while |e| < 1e-3.
+template <typename T>
+[[nodiscard]] inline T InverseRootOfOnePlus(T e) {
   constexpr double kSeriesWithin = 1e-3;
-  const T e = ((q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z)) - T(1);
   const T e2 = e * e;
   T s = (T(1) - T(0.5) * e) + e2 * ((T(0.375) - T(0.3125) * e) + e2 * T(0.2734375));
   const lanes::MaskOf<T> far(!(e2 < T(kSeriesWithin * kSeriesWithin)));
   if (lanes::Any(far)) {
     s = lanes::Select(far, T(T(1) / lanes::Sqrt(T(T(1) + e))), s);
   }
-  return {q.w * s, q.x * s, q.y * s, q.z * s};
+  return s;
+}
+
+/// q/|q|.
+template <typename T>
+[[nodiscard]] inline Quaternion<T> Normalised(const Quaternion<T>& q) {
+  return Scaled(q, InverseRootOfOnePlus(T(SquaredNorm(q) - T(1))));
+}
+
+/// (1, v) ⊗ q, normalised, without waiting for the product: its norm is √(1 + |v|²)·|q|, and both
+/// factors are known before.
+template <typename T>
+[[nodiscard]] inline Quaternion<T> NormalisedOnePlusTimes(const Vector<T>& v,
+                                                          const Quaternion<T>& q) {
+  constexpr double kTiny = 1e-8;  // 3/8 of its square is below rounding
+  const T by_q = InverseRootOfOnePlus(T(SquaredNorm(q) - T(1)));
+  const T v2 = Dot(v, v);
+  const lanes::MaskOf<T> tiny(v2 < T(kTiny));
+  T by_v = T(1) - T(0.5) * v2;
+  if (!lanes::All(tiny)) {
+    by_v = lanes::Select(tiny, by_v, InverseRootOfOnePlus(v2));
+  }
+  return Scaled(OnePlusTimes(v, q), T(by_v * by_q));
 }
 
 /// q ⊗ Exp(φ): sine and cosine of the half angle as series in its square x to x⁴, exact to rounding
@@ -100,8 +133,10 @@ template <typename T>
     s = lanes::Select(large, T(sine / theta), s);
   }
   const Vector<T> v = Scaled(phi_rad, s);
-  return {q.w * c - q.x * v.x - q.y * v.y - q.z * v.z, q.w * v.x + q.x * c + q.y * v.z - q.z * v.y,
-          q.w * v.y + q.y * c + q.z * v.x - q.x * v.z, q.w * v.z + q.z * c + q.x * v.y - q.y * v.x};
+  return {(q.w * c - q.x * v.x) - (q.y * v.y + q.z * v.z),
+          (q.w * v.x + q.x * c) + (q.y * v.z - q.z * v.y),
+          (q.w * v.y + q.y * c) + (q.z * v.x - q.x * v.z),
+          (q.w * v.z + q.z * c) + (q.x * v.y - q.y * v.x)};
 }
 
 /// Rows of R(q): the earth axes in sensor coordinates. Written with 2x, 2y, 2z, which they share.
@@ -173,38 +208,55 @@ template <typename T>
 ///
 ///   R Δv = ½ ((h₀.n + ρ² (b₀.n U − b₀.u N)) / (1 + ρ²),  −h₀.e,  (b₀.e − U h₀.e) / N)
 ///
-/// @param east_S, north_S, up_S  rows of R(q).
-/// @param h0, b0                 measured, in S, unit.
+/// As it is linear in h₀ and b₀, it is taken as products of the rows of R with four vectors in
+/// sensor axes that do not depend on the attitude:
+///
+///   R Δv = (north·a − up·b,  east·c,  east·d)
 template <typename T>
-[[nodiscard]] inline Vector<T> ReducedStepInEarth(const Vector<T>& east_S, const Vector<T>& north_S,
-                                                  const Vector<T>& up_S, T field_north, T field_up,
-                                                  const Vector<T>& h0, const Vector<T>& b0,
-                                                  T rho2) {
-  const Vector<T> b0_E{Dot(east_S, b0), Dot(north_S, b0), Dot(up_S, b0)};
-  const T h0_east = Dot(east_S, h0);
-  const T h0_north = Dot(north_S, h0);
-  const T c_east = h0_north + rho2 * (b0_E.y * field_up - b0_E.z * field_north);
+struct EarthStep {
+  Vector<T> a, b, c, d;
+
+  /// @param east_S, north_S, up_S  rows of R(q).
+  [[nodiscard]] Vector<T> At(const Vector<T>& east_S, const Vector<T>& north_S,
+                             const Vector<T>& up_S) const {
+    return {Dot(north_S, a) - Dot(up_S, b), Dot(east_S, c), Dot(east_S, d)};
+  }
+};
+
+/// `gain` times the step.
+///
+/// @param h0, b0  measured up and field, in S, unit; b0 is zero where rho2 is.
+template <typename T>
+[[nodiscard]] inline EarthStep<T> MakeEarthStep(T field_north, T field_up, const Vector<T>& h0,
+                                                const Vector<T>& b0, T rho2, T gain) {
   const T one = T(1) + rho2;
-  const T inverse = T(0.5) / (one * field_north);
-  const Vector<T> dv{(inverse * field_north) * c_east, T(-0.5) * h0_east,
-                     (inverse * one) * (b0_E.x - field_up * h0_east)};
+  const T inverse = T(0.5) * gain / (one * field_north);
+  // Δv = (k c_east, hy h₀.e + by b₀.e, hz h₀.e + bz b₀.e)
+  T k = inverse * field_north;
+  T hy = T(-0.5) * gain;
+  T by = T(0);
+  T bz = inverse * one;
+  T hz = -(bz * field_up);
 
   const T rn = rho2 * field_north;
   const lanes::MaskOf<T> singular(one * rn * field_north < T(kSingularBelow));
-  if (!lanes::Any(singular)) {
-    return dv;
+  if (lanes::Any(singular)) {
+    const T s = one + T(kLambda);
+    const T north = s - rn * field_north;
+    const T cross = rn * field_up;
+    const T up = s - T(1) - rho2 * field_up * field_up;
+    const T by_block = T(0.5) * gain / (north * up - cross * cross);
+    const T ru = rho2 * field_up;
+    k = lanes::Select(singular, T(T(0.5) * gain / s), k);
+    hy = lanes::Select(singular, T(-(by_block * up)), hy);
+    by = lanes::Select(singular, T(by_block * (cross * rn - up * ru)), by);
+    hz = lanes::Select(singular, T(-(by_block * cross)), hz);
+    bz = lanes::Select(singular, T(by_block * (north * rn - cross * ru)), bz);
   }
-  const T s = one + T(kLambda);
-  const T north = s - rn * field_north;
-  const T cross = rn * field_up;
-  const T up = s - T(1) - rho2 * field_up * field_up;
-  const T by_block = T(0.5) / (north * up - cross * cross);
-  const T c_north = -(h0_east + rho2 * (b0_E.x * field_up));
-  const T c_up = rho2 * (b0_E.x * field_north);
-  return Select<T>(singular,
-                   Vector<T>{T(0.5) / s * c_east, by_block * (up * c_north + cross * c_up),
-                             by_block * (cross * c_north + north * c_up)},
-                   dv);
+  const T kn = k * rn;
+  const T ku = k * (rho2 * field_up);
+  return {Scaled(h0, k) + Scaled(b0, ku), Scaled(b0, kn), Scaled(h0, hy) + Scaled(b0, by),
+          Scaled(h0, hz) + Scaled(b0, bz)};
 }
 
 }  // namespace limbcast::filters::kernel

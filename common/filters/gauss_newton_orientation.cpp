@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/filters/batch_kernels.hpp"
 #include "common/filters/field_monitor.hpp"
 #include "common/filters/filter_constants.hpp"
 #include "common/filters/filter_state_codec.hpp"
@@ -72,6 +73,30 @@ kernel::Quaternion<Scalar> FullyCorrected(const GaussNewtonState<Scalar>& s,
           .template cast<Scalar>();
   return kernel::Normalised<Scalar>({q.w + dq[0], q.x + dq[1], q.y + dq[2], q.z + dq[3]});
 }
+
+template <typename Scalar>
+inline void StepReduced(const GaussNewtonConfig& config, const GaussNewtonInput<Scalar>& input,
+                        GaussNewtonState<Scalar>& core) {
+  gauss_newton::Step(config, input, core,
+                     [&core](auto&&... step) { return gauss_newton::Corrected(core, step...); });
+}
+
+#if defined(__x86_64__)
+// The same operations in the same order, so the same bits; AVX has a third operand for each, which
+// saves a quarter of the instructions. Everything is inlined here: no function that others may call
+// is compiled for AVX.
+[[gnu::target("avx2"), gnu::flatten]] void StepReducedAvx2(const GaussNewtonConfig& config,
+                                                           const GaussNewtonInput<double>& input,
+                                                           GaussNewtonState<double>& core) {
+  StepReduced(config, input, core);
+}
+[[gnu::target("avx2"), gnu::flatten]] void StepReducedAvx2(const GaussNewtonConfig& config,
+                                                           const GaussNewtonInput<float>& input,
+                                                           GaussNewtonState<float>& core) {
+  StepReduced(config, input, core);
+}
+const bool kHasAvx2 = Avx2Kernels() != nullptr;
+#endif
 
 }  // namespace
 
@@ -146,9 +171,12 @@ SampleVerdict GaussNewtonOrientation<Scalar>::StepAlone() {
   if (config_.form == GaussNewtonForm::kFull4x4) {
     gauss_newton::Step(config_, input_, core,
                        [&core](auto&&... step) { return FullyCorrected(core, step...); });
+#if defined(__x86_64__)
+  } else if (kHasAvx2) {
+    StepReducedAvx2(config_, input_, core);
+#endif
   } else {
-    gauss_newton::Step(config_, input_, core,
-                       [&core](auto&&... step) { return gauss_newton::Corrected(core, step...); });
+    StepReduced(config_, input_, core);
   }
   return Report();
 }

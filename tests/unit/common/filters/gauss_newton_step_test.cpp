@@ -164,9 +164,8 @@ kernel::Vector<double> Plain(const Vector3d& v) { return {v.x(), v.y(), v.z()}; 
 Vector3d StepInEarth(const Quaterniond& q, const Vector3d& n, const Vector3d& h0,
                      const Vector3d& b0, double rho) {
   const kernel::Quaternion<double> p{q.w(), q.x(), q.y(), q.z()};
-  const auto dv = kernel::ReducedStepInEarth(kernel::EastInSensor(p), kernel::NorthInSensor(p),
-                                             kernel::UpInSensor(p), n.y(), n.z(), Plain(h0),
-                                             Plain(b0), rho * rho);
+  const auto dv = kernel::MakeEarthStep(n.y(), n.z(), Plain(h0), Plain(b0), rho * rho, 1.0)
+                      .At(kernel::EastInSensor(p), kernel::NorthInSensor(p), kernel::UpInSensor(p));
   return {dv.x, dv.y, dv.z};
 }
 
@@ -199,6 +198,22 @@ TEST(GaussNewtonStepTest, AStepInEarthAxesIsTakenFromTheLeft) {
         kernel::OnePlusTimes(Plain(v), kernel::Quaternion<double>{q.w(), q.x(), q.y(), q.z()});
     const Quaterniond expected = Quaterniond(1.0, v.x(), v.y(), v.z()) * q;
     EXPECT_LT(ComponentError({product.w, product.x, product.y, product.z}, expected), 1e-15 * 8.0);
+  }
+}
+
+TEST(GaussNewtonStepTest, TheProductIsNormalisedByTheNormsOfItsFactors) {
+  std::mt19937 rng(19);
+  for (const double length : {0.0, 1e-6, 1e-4, 1e-3, 0.1, 3.0}) {
+    for (const double stretch : {1.0 - 1e-9, 1.0, 1.0 + 1e-6, 1.01}) {
+      const Quaterniond q = RandomQuaternion(rng);
+      const Vector3d v = length * RandomUnit(rng);
+      const auto p = kernel::NormalisedOnePlusTimes(
+          Plain(v),
+          kernel::Scaled(kernel::Quaternion<double>{q.w(), q.x(), q.y(), q.z()}, stretch));
+      const Quaterniond expected = (Quaterniond(1.0, v.x(), v.y(), v.z()) * q).normalized();
+      EXPECT_LT(ComponentError({p.w, p.x, p.y, p.z}, expected), 1e-15 * 8.0)
+          << length << " " << stretch;
+    }
   }
 }
 
