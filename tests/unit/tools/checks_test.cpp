@@ -136,5 +136,26 @@ TEST_F(ChecksTest, RoomsWantAReadmeAndSmallFiles) {
   EXPECT_THAT(Run("check_rooms").output, HasSubstr("common/math/long.hpp: has 401 lines"));
 }
 
+TEST_F(ChecksTest, DeployWantsFilesThatParseAndProgramsThatExist) {
+  Put("deploy/config/fusion.toml", "[bus]\ndomain_id = 1\n");
+  Put("deploy/sysctl/90-limbcast.conf", "net.core.rmem_max = 1\n");
+  Put("deploy/systemd/limbcast-fusion.service", "[Service]\nExecStart=/usr/bin/limbcast-fusion\n");
+  EXPECT_EQ(Run("check_deploy").status, 0) << Run("check_deploy").output;
+
+  Put("deploy/config/fusion.toml", "[bus]\ndomain_id =\n");
+  Put("deploy/dds/fastdds.xml", "<dds><profiles></dds>");
+  Put("deploy/sysctl/90-limbcast.conf", "net.core.rmem_max=lots\n");
+  Put("deploy/systemd/limbcast-fusion.service", "[Service]\nExecStart=/usr/bin/limbcast-fusio\n");
+  Put("deploy/container/Containerfile", "COPY nothing /there\n");
+  const Outcome outcome = Run("check_deploy");
+  EXPECT_EQ(outcome.status, 1);
+  for (const char* problem : {"fusion.toml: ", "fastdds.xml: ", "90-limbcast.conf:1: ",
+                              "no program limbcast-fusio", "COPY of nothing"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(problem));
+  }
+}
+
+TEST_F(ChecksTest, DeployOfAnEmptyTreeIsAnError) { EXPECT_EQ(Run("check_deploy").status, 2); }
+
 }  // namespace
 }  // namespace limbcast
