@@ -107,9 +107,11 @@ std::optional<CoilTrial> MakeCoilTrial(const GapTrial& recording, CoilNoise nois
     tick.frame.accel_m_s2 = sample.accel_m_s2.cast<double>();
     tick.frame.emitter_inertial = false;
     tick.frame.drive = simulation::StatedDrive(pulses, t_s);
-    const double reading = std::floor(t_s * mag_rate_hz);
-    const bool is_new =
-        k == 0 || reading > std::floor((t_s - 1.0 / recording.rate_hz) * mag_rate_hz);
+    // Of the row before in the same arithmetic, or rounding makes one reading two.
+    const auto reading_of = [&](std::size_t row) {
+      return std::floor(static_cast<double>(row) / recording.rate_hz * mag_rate_hz);
+    };
+    const bool is_new = k == 0 || reading_of(k) > reading_of(k - 1);
     tick.frame.mag_valid = is_new;
     if (is_new) {
       Eigen::Vector3d field_E =
