@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 namespace limbcast::config {
 namespace {
@@ -188,6 +189,17 @@ TEST(ConfigFileTest, AMessageThatNamesItsKeyIsNotNamedTwice) {
   file.Get("bus").Fail("dds", "bus.dds must be one of cyclone, fast, is \"x\"");
   EXPECT_EQ(MessageOf(file.Finish()),
             R"(test.toml:2: bus.dds must be one of cyclone, fast, is "x")");
+}
+
+TEST(ConfigFileTest, AControlCharacterIsRefusedWithItsLine) {
+  using std::string_literals::operator""s;
+  for (const std::string& text : {"a = 1\n[\x10us]\n"s, "a = 1\n\0 = 2\n"s, "a = 1\n# \x7F\n"s}) {
+    const Result<ConfigFile> file = ConfigFile::Parse(text, "bad.toml");
+    ASSERT_FALSE(file.ok());
+    EXPECT_THAT(file.error().message, ::testing::StartsWith("bad.toml:2: control character 0x"));
+    EXPECT_THAT(file.error().message, ::testing::EndsWith(", TOML allows none"));
+  }
+  EXPECT_TRUE(ConfigFile::Parse("a = 1\r\n\tb = 2\n", "good.toml").ok());
 }
 
 TEST(ConfigFileTest, ASyntaxErrorIsNamedWithFileAndLine) {
