@@ -32,12 +32,14 @@ TEST(ProcessUsageTest, ProcessorTimeGrowsWithWork) {
 }
 
 TEST(ProcessUsageTest, AThreadMoreIsAThreadMore) {
+  WakeEvent first_end;  // an event is waited for by one thread only
   WakeEvent end;
   // The first one may bring company: the thread sanitizer's own.
-  const NamedThread first("first", [&] { end.WaitUntil(std::nullopt); });
+  const NamedThread first("first", [&] { first_end.WaitUntil(std::nullopt); });
   const std::uint32_t before = ReadProcessUsage().threads;
   const NamedThread thread("extra", [&] { end.WaitUntil(std::nullopt); });
   EXPECT_EQ(ReadProcessUsage().threads, before + 1);
+  first_end.Close();
   end.Close();
 }
 
