@@ -40,10 +40,7 @@ Row RowOf(QosProfile profile, const BusConfig& config) {
 
 constexpr dds_duration_t kMaxBlocking = DDS_MSECS(100);
 
-}  // namespace
-
-Qos WriterQos(QosProfile profile, bool exclusive, const BusConfig& config) {
-  const Row row = RowOf(profile, config);
+Qos EndpointQos(const Row& row, bool exclusive, const BusConfig& config) {
   Qos qos(dds_create_qos());
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlocking);
   dds_qset_durability(qos.get(), row.durability);
@@ -70,12 +67,18 @@ Qos WriterQos(QosProfile profile, bool exclusive, const BusConfig& config) {
   return qos;
 }
 
+}  // namespace
+
+Qos WriterQos(QosProfile profile, bool exclusive, const BusConfig& config) {
+  return EndpointQos(RowOf(profile, config), exclusive, config);
+}
+
 Qos ReaderQos(QosProfile profile, bool exclusive, const BusConfig& config) {
-  Qos qos = WriterQos(profile, exclusive, config);
+  Row row = RowOf(profile, config);
   if (profile == QosProfile::kState) {
-    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kStateReaderDepth);
+    row.depth = kStateReaderDepth;
   }
-  return qos;
+  return EndpointQos(row, exclusive, config);
 }
 
 Qos GroupQos(const BusConfig& config) {

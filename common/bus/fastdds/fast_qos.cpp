@@ -114,15 +114,13 @@ dds::DataWriterQos WriterQos(QosProfile profile, bool exclusive, const BusConfig
 }
 
 dds::DataReaderQos ReaderQos(QosProfile profile, bool exclusive, const BusConfig& config) {
-  const Row row = RowOf(profile, config);
+  Row row = RowOf(profile, config);
+  if (profile == QosProfile::kState) {
+    row.depth = row.max_samples_per_instance = kStateReaderDepth;
+  }
   auto qos = CommonQos<dds::DataReaderQos>(row, exclusive, config);
   if (row.leased) {
     qos.liveliness().lease_duration = ToFast(config.stream_lease + kLeaseTolerance);
-  }
-  if (profile == QosProfile::kState) {
-    qos.history().depth = kStateReaderDepth;
-    qos.resource_limits().max_samples_per_instance = kStateReaderDepth;
-    qos.resource_limits().max_samples = row.max_instances * kStateReaderDepth;
   }
   auto& times = qos.reliable_reader_qos().times;
   times.initialAcknackDelay = ToFast(milliseconds(5));

@@ -10,6 +10,7 @@
 #include "common/filters/position/coil_inertial_filter.hpp"
 #include "common/simulation/random.hpp"
 #include "common/simulation/smooth_step.hpp"
+#include "tools/limbcast/evaluate/coil_trial.hpp"
 
 namespace limbcast::tool {
 namespace {
@@ -200,19 +201,14 @@ CoilSubject MakeCoilSubject(std::uint64_t seed) {
   Random random(seed, "coil subject");
   const Limb limb(random);
   CoilSubject subject;
-  const bool modern = seed % 2 == 1;
-  const double sigma_tesla = modern ? 15e-9 : 50e-9;
-  subject.stream.pulses = modern ? simulation::BipolarPulses() : simulation::ThesisPulses();
+  const CoilNoise noise = seed % 2 == 1 ? CoilNoise::kModern : CoilNoise::kThesis;
+  const double sigma_tesla = SigmaOf_tesla(noise);
+  subject.stream.pulses = PulsesOf(noise);
   subject.stream.sensor = [limb](double t_s) { return limb.Sensor(t_s); };
   subject.stream.emitter = [limb](double t_s) { return limb.Emitter(t_s); };
   subject.stream.emitter_inertial = limb.moving_source;
   subject.stream.errors = simulation::CoilSensorErrors(sigma_tesla);
-  Eigen::Matrix3d G = Eigen::Matrix3d::Zero();
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    G.row(i) = 0.3e-6 * random.Gaussian3().transpose();
-  }
-  G = (0.5 * (G + G.transpose())).eval();
-  subject.stream.gradient_tesla_m = G - G.trace() / 3.0 * Eigen::Matrix3d::Identity();
+  subject.stream.gradient_tesla_m = DrawGradient_tesla_m(random);
   subject.filter.source = subject.stream.source;
   subject.filter.sigma_mag_tesla = sigma_tesla;
   subject.filter.half_space = Eigen::Vector3d::UnitZ();

@@ -57,9 +57,9 @@ std::string CoilTable(std::span<const CoilExperiment> experiments,
 std::string EnduranceText(const std::string& what, const CoilEndurance& e) {
   return fmt::format(
       "{}: {:.2f} h in {} runs, forward {:.1f} mm RMS; diverged {}, frames on the wrong side {}, "
-      "losses declared {}\n  track taken away {} times, back after {:.2f} s at most, later than 2 "
-      "s "
-      "{}; moved to the mirror image {} times, later than 2 s {}\n",
+      "losses declared {}\n"
+      "  track taken away {} times, back after {:.2f} s at most, later than 2 s {}; moved to the "
+      "mirror image {} times, later than 2 s {}\n",
       what, e.hours, e.runs, kMmPerM * e.rms_m, e.diverged, e.flips, e.losses, e.injected,
       e.slowest_s, e.late, e.mirrored, e.mirrored_late);
 }

@@ -95,14 +95,18 @@ simulation::CoilPulseConfig PulsesOf(CoilNoise noise) {
   return noise == CoilNoise::kThesis ? simulation::ThesisPulses() : simulation::BipolarPulses();
 }
 
-Eigen::Matrix3d DrawGradient_tesla_m(std::uint64_t seed) {
-  simulation::Random random(seed, "gradient");
+Eigen::Matrix3d DrawGradient_tesla_m(simulation::Random& random) {
   Eigen::Matrix3d G = Eigen::Matrix3d::Zero();
   for (Eigen::Index i = 0; i < 3; ++i) {
     G.row(i) = 0.3e-6 * random.Gaussian3().transpose();
   }
   G = (0.5 * (G + G.transpose())).eval();
   return G - G.trace() / 3.0 * Eigen::Matrix3d::Identity();
+}
+
+Eigen::Matrix3d DrawGradient_tesla_m(std::uint64_t seed) {
+  simulation::Random random(seed, "gradient");
+  return DrawGradient_tesla_m(random);
 }
 
 CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise, std::uint64_t seed) {

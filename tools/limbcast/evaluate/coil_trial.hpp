@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/filters/position/coil_inertial_config.hpp"
+#include "common/simulation/random.hpp"
 #include "tools/limbcast/evaluate/coil_experiments.hpp"
 
 namespace limbcast::tool {
@@ -54,6 +55,7 @@ struct CoilTrial {
 [[nodiscard]] double SigmaOf_tesla(CoilNoise noise);
 [[nodiscard]] simulation::CoilPulseConfig PulsesOf(CoilNoise noise);
 /// A room: the field changes by about 0.3 µT in a metre, each component by each coordinate.
+[[nodiscard]] Eigen::Matrix3d DrawGradient_tesla_m(simulation::Random& random);
 [[nodiscard]] Eigen::Matrix3d DrawGradient_tesla_m(std::uint64_t seed);
 
 /// Lets all methods run. Magnetic only: least squares on each three pulses, columns turned by gyro,
