@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/base/ids.hpp"
+#include "common/base/position_kind.hpp"
 #include "common/base/time.hpp"
 #include "common/base/tracking.hpp"
 #include "common/base/verdict.hpp"
@@ -34,7 +35,7 @@ struct SegmentState {
   Eigen::Vector3f w_earth_sensor_in_sensor_rad_s = Eigen::Vector3f::Zero();  ///< bias removed
   Eigen::Vector3f free_accel_in_earth_m_s2 = Eigen::Vector3f::Zero();        ///< gravity removed
   Eigen::Matrix3f cov_orientation_rad2 = Eigen::Matrix3f::Zero();  ///< earth-frame rotation error
-  bool has_position = false;  ///< false: the next three mean nothing
+  bool has_position = false;  ///< false: nothing that is said of a position means anything
   Eigen::Vector3f p_earth_sensor_m = Eigen::Vector3f::Zero();
   Eigen::Vector3f v_earth_sensor_m_s = Eigen::Vector3f::Zero();
   Eigen::Matrix3f cov_position_m2 = Eigen::Matrix3f::Zero();
@@ -42,6 +43,11 @@ struct SegmentState {
   std::uint64_t lost_count =
       0;                     ///< samples of this sensor that never arrived, by its sequence numbers
   VerdictCounters verdicts;  ///< of this sensor since the service started
+  /// p_earth_sensor_m and v_earth_sensor_m_s count from there, always in earth axes. Sensor: that
+  /// of the segment `position_from`, with the axes that its own orientation says.
+  PositionReference position_reference = PositionReference::kEarth;
+  Segment position_from = Segment::kPelvis;
+  FillKind position_fill = FillKind::kNone;
 };
 
 }  // namespace limbcast::body

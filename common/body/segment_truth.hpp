@@ -20,6 +20,8 @@ struct SegmentTruth {
   Eigen::Quaterniond q_earth_sensor = Eigen::Quaterniond::Identity();
   Eigen::Quaterniond q_earth_segment = Eigen::Quaterniond::Identity();
   Eigen::Vector3d p_earth_segment_m = Eigen::Vector3d::Zero();  ///< inboard end of the segment
+  /// Means something with segment_valid; zero: not known, as in recordings.
+  Eigen::Vector3d p_earth_sensor_m = Eigen::Vector3d::Zero();
 };
 
 }  // namespace limbcast::body

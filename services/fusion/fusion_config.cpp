@@ -45,6 +45,7 @@ FusionConfig ReadFusionConfig(const config::ConfigFile& file) {
       fusion.Read("max_future_s", config.max_future_s, kMinFuture_s, kMaxFuture_s);
   config.declination_deg = fusion.Read("declination_deg", config.declination_deg, -180.0, 180.0);
   config.segment_frame = fusion.Read("segment_frame", config.segment_frame);
+  config.position = ReadPositionConfig(fusion);
 
   const config::Section filter = file.Get("filter");
   config.filter = ReadChoice(filter, config.filter);
@@ -96,6 +97,9 @@ Status Validate(const FusionConfig& config, const FilterFactory& factory) {
   if (!(std::abs(config.declination_deg) <= 180.0)) {
     return refuse(fmt::format("fusion.declination_deg must be in [-180, 180], is {}",
                               config.declination_deg));
+  }
+  if (Status valid = Validate(config.position); !valid) {
+    return valid;
   }
   if (Status made = CheckChoice(factory, config.filter, "filter"); !made) {
     return made;

@@ -14,6 +14,7 @@
 #include "common/config/config_file.hpp"
 #include "common/filters/filter.hpp"
 #include "common/filters/filter_factory.hpp"
+#include "services/fusion/position_config.hpp"
 
 namespace limbcast::fusion {
 
@@ -43,6 +44,9 @@ struct FusionConfig {
   /// Publishes the states of a body together, as `segment_frame`: cheaper for many people. Else
   /// each alone, as `segment_state`. Services that stand by for each other publish the same way.
   bool segment_frame = false;
+
+  /// Tables [fusion.coils] and [fusion.markers].
+  PositionConfig position;
 
   FilterChoice filter;
   std::map<body::Segment, FilterChoice> segment_filters;  ///< segments that differ

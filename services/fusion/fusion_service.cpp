@@ -99,6 +99,14 @@ Status FusionService::MakeReaders() {
                                                         const SampleInfo&) { OnCommand(command); },
                                     .on_disposed = {}});
   }
+  if (made && !config_.position.markers.segments.empty()) {
+    // Before the samples: a marker waits for the reading of its time, not the other way round.
+    made = Listen<sensing::MarkerPosition>(
+        marker_reader_,
+        {.on_sample = [this](const sensing::MarkerPosition& marker,
+                             const SampleInfo& info) { OnMarker(marker, info.received_at); },
+         .on_disposed = {}});
+  }
   if (made) {
     made = Listen<sensing::MargSample>(
         marg_reader_,
@@ -130,6 +138,7 @@ void FusionService::Stop() {
   marg_reader_.reset();
   marg_frame_reader_.reset();
   orientation_reader_.reset();
+  marker_reader_.reset();
   sensor_info_reader_.reset();
   if (started_) {
     pool_.Stop();
@@ -163,6 +172,16 @@ void FusionService::OnSample(const Sample& sample, Time received_at) {
   const std::uint64_t touched = Take(sample, received_at);
   lock.unlock();
   Wake(touched);
+}
+
+// The samples that follow wake the worker. One that finds the queue full is as good as hidden.
+void FusionService::OnMarker(const sensing::MarkerPosition& marker, Time received_at) {
+  const std::scoped_lock lock(intake_mutex_);
+  const Reception reception{.received_at = received_at};
+  if (!workers_[router_.WorkerOf(marker.body_id)]->Offer(marker, reception)) {
+    last_error_ = fmt::format("a marker of body {} was dropped: the queue of its worker is full",
+                              marker.body_id.value);
+  }
 }
 
 void FusionService::OnFrame(const sensing::MargFrame& frame, Time received_at) {
@@ -293,6 +312,7 @@ void FusionService::FillHealth(ServiceHealth& health) {
   }
   add("states.published", sum.published);
   add("states.errors", sum.publish_errors);
+  add("states.with_position", sum.positions);
   add("gauge.queue_high_water", sum.queue_high_water);
   {
     const std::scoped_lock lock(endpoints_mutex_);

@@ -56,6 +56,7 @@ class FusionService {
   [[nodiscard]] Status Listen(std::unique_ptr<bus::Reader<T>>& reader,
                               bus::ReaderHandler<T> handler);
   [[nodiscard]] Status MakeReaders();
+  void OnMarker(const sensing::MarkerPosition& marker, Time received_at);
   void OnFrame(const sensing::MargFrame& frame, Time received_at);
   template <typename Sample>
   void OnSample(const Sample& sample, Time received_at);
@@ -97,6 +98,7 @@ class FusionService {
   std::unique_ptr<bus::Reader<sensing::MargSample>> marg_reader_;
   std::unique_ptr<bus::Reader<sensing::MargFrame>> marg_frame_reader_;
   std::unique_ptr<bus::Reader<sensing::FusedOrientation>> orientation_reader_;
+  std::unique_ptr<bus::Reader<sensing::MarkerPosition>> marker_reader_;  // with marker tracks only
 };
 
 }  // namespace limbcast::fusion

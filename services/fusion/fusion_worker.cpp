@@ -1,6 +1,7 @@
 #include "services/fusion/fusion_worker.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "common/units/units.hpp"
@@ -27,6 +28,7 @@ FusionWorker::FusionWorker(const FusionConfig& config, const FilterFactory& fact
       max_future_(DurationFromSeconds(config.max_future_s)),
       declination_rad_(units::RadFromDeg(config.declination_deg)),
       queue_(config.queue_capacity),
+      position_config_(config.position),
       publisher_(writers, counters_) {}
 
 void FusionWorker::Drain() {
@@ -51,11 +53,13 @@ void FusionWorker::Take(InRound& next) {
   const auto* const sample = std::get_if<sensing::MargSample>(&next.item.work);
   if (sample == nullptr) {
     FinishRound();
-    if (const auto* const plan = std::get_if<std::shared_ptr<const BodyPlan>>(&next.item.work)) {
-      Handle(*plan);
-    } else {
-      Handle(std::get<sensing::FusedOrientation>(next.item.work), next.item.reception);
-    }
+    std::visit(
+        [&](const auto& work) {
+          if constexpr (!std::is_same_v<decltype(work), const sensing::MargSample&>) {
+            Handle(work, next.item.reception);
+          }
+        },
+        next.item.work);
     return;
   }
   Tracked* const tracked = Find(sample->sensor_uid);
@@ -85,6 +89,7 @@ void FusionWorker::FinishRound() {
     const InRound& in_round = round_[i];
     const SensorTrack::Output output = in_round.tracked->track.Finish();
     const auto& sample = std::get<sensing::MargSample>(in_round.item.work);
+    AddPosition(in_round.tracked->body_id, sample, output);
     Publish(output, sample.published_at, in_round.item.reception, in_round.taken_at);
   }
   round_size_ = 0;
@@ -96,6 +101,21 @@ void FusionWorker::Handle(const sensing::FusedOrientation& orientation,
     const Time taken_at = clock_.Now();
     Publish(tracked->track.Update(orientation, reception), orientation.published_at, reception,
             taken_at);
+  }
+}
+
+void FusionWorker::Handle(const sensing::MarkerPosition& marker, const Reception&) {
+  if (const auto body = positions_.find(marker.body_id); body != positions_.end()) {
+    body->second.OnMarker(marker);
+  }
+}
+
+// In the order of the queue, which is the same for any number of workers.
+void FusionWorker::AddPosition(BodyId body_id, const sensing::MargSample& sample,
+                               const SensorTrack::Output& output) {
+  if (const auto body = positions_.find(body_id); body != positions_.end()) {
+    body->second.Update(sample, output.states.front());
+    counters_.AddPosition(output.states.front().has_position);
   }
 }
 
@@ -130,7 +150,7 @@ void FusionWorker::Publish(const SensorTrack::Output& output, Time published_at,
   latencies_.fusion.Record(done_at - reception.received_at);
 }
 
-void FusionWorker::Handle(const std::shared_ptr<const BodyPlan>& plan) {
+void FusionWorker::Handle(const std::shared_ptr<const BodyPlan>& plan, const Reception&) {
   DisposeAbsent(plan->body_id, *plan);
   std::erase_if(tracks_, [&](const auto& entry) {
     return entry.second.body_id == plan->body_id && !Names(*plan, entry.first);
@@ -144,6 +164,11 @@ void FusionWorker::Handle(const std::shared_ptr<const BodyPlan>& plan) {
       tracks_.try_emplace(track.sensor_uid, plan->body_id, track, seated_, max_future_,
                           declination_rad_);
     }
+  }
+  BodyPositions& positions = positions_.try_emplace(plan->body_id, position_config_).first->second;
+  positions.Apply(*plan);
+  if (positions.empty()) {
+    positions_.erase(plan->body_id);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "common/filters/filter_batches.hpp"
 #include "common/runtime/bounded_queue.hpp"
 #include "common/runtime/latency_histogram.hpp"
+#include "services/fusion/body_positions.hpp"
 #include "services/fusion/fusion_config.hpp"
 #include "services/fusion/fusion_counters.hpp"
 #include "services/fusion/router.hpp"
@@ -36,10 +37,10 @@ struct FusionLatencies {
 /// What a sensor's filter says does not depend on who else is in its batch or its round.
 class FusionWorker {
  public:
-  using Work =
-      std::variant<sensing::MargSample, sensing::FusedOrientation, std::shared_ptr<const BodyPlan>>;
+  using Work = std::variant<sensing::MargSample, sensing::FusedOrientation, sensing::MarkerPosition,
+                            std::shared_ptr<const BodyPlan>>;
 
-  /// What is referred to outlives it.
+  /// What is referred to, `config` too, outlives it.
   FusionWorker(const FusionConfig& config, const FilterFactory& factory, const Clock& clock,
                StateWriters& writers, FusionLatencies& latencies);
 
@@ -50,6 +51,9 @@ class FusionWorker {
   [[nodiscard]] bool Offer(const sensing::FusedOrientation& orientation,
                            const Reception& reception) {
     return queue_.TryPush({reception, orientation}, kKeptForPlans);
+  }
+  [[nodiscard]] bool Offer(const sensing::MarkerPosition& marker, const Reception& reception) {
+    return queue_.TryPush({reception, marker}, kKeptForPlans);
   }
   /// Queues a change of who is who, in order with the samples. False: even the kept places are
   /// full.
@@ -80,7 +84,10 @@ class FusionWorker {
   void Take(InRound& next);
   void FinishRound();
   void Handle(const sensing::FusedOrientation& orientation, const Reception& reception);
-  void Handle(const std::shared_ptr<const BodyPlan>& plan);
+  void Handle(const sensing::MarkerPosition& marker, const Reception& reception);
+  void Handle(const std::shared_ptr<const BodyPlan>& plan, const Reception& reception);
+  void AddPosition(BodyId body_id, const sensing::MargSample& sample,
+                   const SensorTrack::Output& output);
   [[nodiscard]] Tracked* Find(SensorUid sensor_uid);
   void Publish(const SensorTrack::Output& output, Time published_at, const Reception& reception,
                Time taken_at);
@@ -104,6 +111,8 @@ class FusionWorker {
   std::array<InRound, kFlushEvery> round_;
   std::size_t round_size_ = 0;
   std::unordered_map<SensorUid, Tracked> tracks_;
+  const PositionConfig& position_config_;
+  std::unordered_map<BodyId, BodyPositions> positions_;  // of bodies that have any
   CounterCells counters_;
   StatePublisher publisher_;
 };

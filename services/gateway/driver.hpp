@@ -9,6 +9,7 @@
 #include "common/body/segment_truth.hpp"
 #include "common/roster/roster.hpp"
 #include "common/sensing/coil_burst.hpp"
+#include "common/sensing/coil_frame.hpp"
 #include "common/sensing/fused_orientation.hpp"
 #include "common/sensing/marg_sample.hpp"
 #include "common/sensing/position_samples.hpp"
@@ -27,6 +28,25 @@ enum class DriverTime : std::uint8_t {
   kHost,
 };
 
+/// A source of three coils that somebody wears.
+struct CoilSourceInfo {
+  /// The inertial unit that the coils are fixed to: its axes and place are theirs.
+  SensorUid source_uid;
+  BodyId body_id;  ///< who wears it, as in DriverDescription::bodies
+  /// Sources with different slots may be near enough to disturb one another, so each is masked
+  /// while the other pulses; those with the same slot are not.
+  std::uint32_t slot = 0;
+  std::vector<SensorUid> sensors;  ///< on the same body, whose pulses are to be published
+  double sigma_mag_tesla = 50e-9;  ///< noise of one reading of theirs, one axis
+  double current_a = 0.0;          ///< nominal, > 0
+};
+
+/// What a source does while the samples of a tick are taken.
+struct CoilSourceDrive {
+  SensorUid source_uid;
+  sensing::CoilDrive drive;  ///< of which the current is measured: NaN when that failed
+};
+
 /// What a driver knows before the first sample. Fixed for the driver's life.
 struct DriverDescription {
   std::string driver;  ///< "simulator", "replay", ... (at most 32 characters)
@@ -38,6 +58,7 @@ struct DriverDescription {
   /// revision 1 and an empty session; the gateway may change body ids and fills the session.
   std::vector<roster::RosterEntry> bodies;
   bool has_truth = false;  ///< batches carry SegmentTruth
+  std::vector<CoilSourceInfo> coil_sources;
 };
 
 /// All that one tick brings: the samples of all sensors that belong to one instant (or, for live
@@ -56,6 +77,10 @@ struct Batch {
   /// Of cameras; left to the gateway: published_at. They go out before the samples, so that a
   /// filter that reads on meets a marker no later than the reading of its instant.
   std::vector<sensing::MarkerPosition> markers;
+  /// What each of the description's sources does now. The gateway takes the pulses out of the
+  /// samples (coil_pulse_driver), so a driver that gives this leaves kCoilPulseActive and
+  /// coil_bursts alone.
+  std::vector<CoilSourceDrive> coil_drives;
   /// Coil pulses that were completed by this tick's readings; left to the gateway: published_at.
   std::vector<sensing::CoilBurst> coil_bursts;
   std::vector<body::SegmentTruth> truth;
@@ -67,6 +92,7 @@ struct Batch {
     marg.clear();
     orientation.clear();
     markers.clear();
+    coil_drives.clear();
     coil_bursts.clear();
     truth.clear();
     device_lost = 0;

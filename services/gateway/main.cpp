@@ -12,6 +12,7 @@
 #include "common/service/bus_events.hpp"
 #include "common/service/health_publisher.hpp"
 #include "services/gateway/calibrated_driver.hpp"
+#include "services/gateway/coil_pulse_driver.hpp"
 #include "services/gateway/driver_factory.hpp"
 #include "services/gateway/gateway_command_line.hpp"
 #include "services/gateway/gateway_config.hpp"
@@ -42,7 +43,8 @@ int main(int argc, char** argv) {
   const Result<std::unique_ptr<bus::Bus>> bus = bus::Open(*bus_config, events.handler());
   if (!bus) return command.Fail(bus.error());
 
-  auto calibrated = gateway::WithCalibrations(std::move(*driver), config.calibration_folder);
+  auto calibrated = gateway::WithCoilPulses(
+      gateway::WithCalibrations(std::move(*driver), config.calibration_folder));
   const auto session = gateway::GatewaySession::Make(**bus, config, calibrated->Describe());
   if (!session) return command.Fail(session.error());
   std::unique_ptr<gateway::GatewayService> service;

@@ -5,6 +5,7 @@
 
 #include "common/base/expects.hpp"
 #include "common/body/default_body.hpp"
+#include "common/body/sensor_place.hpp"
 #include "common/math/rotation.hpp"
 
 namespace limbcast::posture {
@@ -51,6 +52,13 @@ void BodyTracker::Rebuild() {
   tick_.Expect(expected);
   kinematics_ = body::ForwardKinematics(definition_);
   root_.SetBody(definition_);
+  for (const body::SegmentDefinition& segment : definition_.segments) {
+    const auto told = config_.sensor_places_m.find(segment.segment);
+    sensor_places_m_[body::Index(segment.segment)] =
+        told != config_.sensor_places_m.end()
+            ? told->second
+            : body::UsualSensorPlace_m(definition_, segment.segment);
+  }
 }
 
 bool BodyTracker::SetRoster(const roster::RosterEntry& entry) {
@@ -238,6 +246,9 @@ void BodyTracker::PoseSegments(Time at, SegmentSet measured, SegmentSet missing)
     kinematics_.LimitJoints(config_.joint_softness_rad, pose_);
   }
   kinematics_.Place(Eigen::Vector3d::Zero(), pose_);
+  if (config_.positions) {
+    UsePositions(at);
+  }
   root_.Update(at, motion_, pose_);
 }
 

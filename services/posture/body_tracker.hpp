@@ -116,6 +116,7 @@ class BodyTracker {
   void Rebuild();
   void Emit_(TickEnd end, Time at);
   void PoseSegments(Time at, SegmentSet measured, SegmentSet missing);
+  void UsePositions(Time at);
   void FillSkeleton(Time at, SegmentSet measured, SegmentSet missing);
   void NoteHeading(SegmentSet measured);
   void StartBlends(std::vector<Track>& before);
@@ -139,10 +140,12 @@ class BodyTracker {
   body::StageTimes completed_by_;  // of the newest arrival
   SegmentSet measured_since_output_ = 0;
   body::RootTracker root_;
-  body::PerSegment<body::SegmentMotion> motion_{};  // as of the skeleton in work
-  std::optional<Time> next_output_at_;              // fixed rate only, once something was heard
-  Time shown_at_{};                                 // of the last skeleton
-  Time heard_at_{};                                 // host clock, of the newest arrival
+  body::PerSegment<body::SegmentMotion> motion_{};       // as of the skeleton in work
+  body::PerSegment<Eigen::Vector3d> sensor_places_m_{};  // p_segment_sensor
+  body::PerSegment<float> sigmas_rad_{};                 // of one axis
+  std::optional<Time> next_output_at_;  // fixed rate only, once something was heard
+  Time shown_at_{};                     // of the last skeleton
+  Time heard_at_{};                     // host clock, of the newest arrival
   std::uint32_t timeline_restarts_ = 0;
   BodyCalibrator calibrator_;
   body::HeadingTracker headings_;

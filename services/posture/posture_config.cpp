@@ -6,6 +6,7 @@ namespace limbcast::posture {
 namespace {
 
 constexpr std::size_t kMaxPathLength = 4096;
+constexpr double kFarthestPlace_m = 0.5;
 
 Status InRange(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) {
@@ -31,6 +32,13 @@ Status Validate(const PostureConfig& config) {
                                InRange("blend_s", config.blend_s, 0.0, 5.0)}) {
     if (!status) {
       return status;
+    }
+  }
+  for (const auto& [segment, place_m] : config.sensor_places_m) {
+    if (!(place_m.cwiseAbs().maxCoeff() <= kFarthestPlace_m)) {
+      return Error{ErrorCode::kInvalidArgument,
+                   fmt::format("posture.sensor_places.{} must be within {} m, is {} m away",
+                               body::ToString(segment), kFarthestPlace_m, place_m.norm())};
     }
   }
   if (config.output_rate_hz != 0.0) {
@@ -74,6 +82,17 @@ PostureConfig ReadPostureConfig(const config::Section& section) {
   config.automatic_calibration =
       section.Read("automatic_calibration", config.automatic_calibration);
   config.heading_tracking = section.Read("heading_tracking", config.heading_tracking);
+  config.positions = section.Read("positions", config.positions);
+  const config::Section places = section.Get("sensor_places");
+  for (const std::string& name : places.Keys()) {
+    const auto place = places.ReadNumbers(name, {}, -kFarthestPlace_m, kFarthestPlace_m, 3);
+    const auto segment = body::ParseSegment(name);
+    if (!segment) {
+      places.Fail(name, "is not a segment like pelvis or left_lower_leg");
+    } else if (place.size() == 3) {
+      config.sensor_places_m[*segment] = {place[0], place[1], place[2]};
+    }
+  }
   config.state_dir = section.Read("state_dir", config.state_dir, kMaxPathLength);
   return config;
 }

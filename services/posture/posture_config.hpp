@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -70,6 +72,14 @@ struct PostureConfig {
 
   /// Keeps headings of sensors without magnetometer together while the person walks.
   bool heading_tracking = true;
+
+  /// Positions that fusion publishes take part: of a sensor of an arm or a leg against the one that
+  /// carries the coils, and of the pelvis by its marker. Needs aligned sensors.
+  bool positions = true;
+
+  /// Table `sensor_places`: where the sensor sits on its segment, three numbers from the inboard
+  /// end in segment axes; else in the middle, on the skin. Range: ±0.5.
+  std::map<body::Segment, Eigen::Vector3d> sensor_places_m;
 
   /// Folder in which alignment and dimensions of each body survive a restart. Empty: they do not.
   std::string state_dir;

@@ -27,6 +27,11 @@ struct StateInput {
   Eigen::Quaterniond q_earth_sensor = Eigen::Quaterniond::Identity();
   Eigen::Vector3f w_earth_sensor_in_sensor_rad_s = Eigen::Vector3f::Zero();
   Eigen::Vector3f free_accel_in_earth_m_s2 = Eigen::Vector3f::Zero();
+  bool has_position = false;
+  PositionReference position_reference = PositionReference::kEarth;
+  body::Segment position_from = body::Segment::kPelvis;
+  Eigen::Vector3f p_earth_sensor_m = Eigen::Vector3f::Zero();
+  Eigen::Matrix3f cov_position_m2 = Eigen::Matrix3f::Zero();
 };
 
 [[nodiscard]] inline StateInput MakeStateInput(const body::SegmentState& state, Time received_at) {
@@ -43,7 +48,12 @@ struct StateInput {
                    .stages = state.stages,
                    .q_earth_sensor = state.q_earth_sensor,
                    .w_earth_sensor_in_sensor_rad_s = state.w_earth_sensor_in_sensor_rad_s,
-                   .free_accel_in_earth_m_s2 = state.free_accel_in_earth_m_s2};
+                   .free_accel_in_earth_m_s2 = state.free_accel_in_earth_m_s2,
+                   .has_position = state.has_position,
+                   .position_reference = state.position_reference,
+                   .position_from = state.position_from,
+                   .p_earth_sensor_m = state.p_earth_sensor_m,
+                   .cov_position_m2 = state.cov_position_m2};
   input.stages.posture_received_at = received_at;
   return input;
 }

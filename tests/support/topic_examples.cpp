@@ -22,7 +22,7 @@ constexpr std::uint32_t kSegments = body::kSegmentCount;
 sensing::MargSample Marg(Draw& draw, std::uint64_t uid, std::uint32_t sequence) {
   return {.sensor_uid = {uid},
           .sequence = sequence,
-          .flags = draw.Below(1024),
+          .flags = draw.Below(16384),
           .measured_at = draw.Instant(),
           .published_at = draw.Instant(),
           .gyro_rad_s = draw.Vector3f(),
@@ -155,6 +155,9 @@ void Fill(body::SegmentState& v, Draw& draw, std::uint32_t key, std::uint32_t se
   for (std::uint64_t& count : v.verdicts.count) {
     count = draw.Bits();
   }
+  v.position_reference = draw.OneOf<PositionReference>(2);
+  v.position_from = draw.Segment();
+  v.position_fill = draw.OneOf<FillKind>(5);
 }
 Numbers KeyAndSequence(const body::SegmentState& v) {
   return Pair(v.body_id.value * kSegments + body::Index(v.segment), v.sequence);
@@ -180,7 +183,8 @@ void Fill(body::SegmentTruth& v, Draw& draw, std::uint32_t key, std::uint32_t se
        .segment_valid = draw.Coin(),
        .q_earth_sensor = draw.Rotation(),
        .q_earth_segment = draw.Rotation(),
-       .p_earth_segment_m = draw.Vector3d()};
+       .p_earth_segment_m = draw.Vector3d(),
+       .p_earth_sensor_m = draw.Vector3d()};
 }
 Numbers KeyAndSequence(const body::SegmentTruth& v) {
   return Pair(v.body_id.value * kSegments + body::Index(v.segment),

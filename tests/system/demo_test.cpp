@@ -54,6 +54,36 @@ TEST_P(DemoTest, SimulatedPersonComesThroughWhole) {
 INSTANTIATE_TEST_SUITE_P(Dds, DemoTest, ::testing::Values("cyclone", "fast", "mixed"),
                          [](const auto& test) { return std::string(test.param); });
 
+// Coils and a marker: simulator, gateway, fusion, posture, and back to the truth.
+TEST_P(DemoTest, CoilsAndMarkersPlaceWristsShinsAndThePelvis) {
+  const DemoRun run =
+      RunDemo({"--dds", GetParam(), "--seconds", "14", "--coils", "--markers"}, 60s);
+  ASSERT_EQ(run.outcome.status, 0) << Describe(run.outcome);
+  ASSERT_TRUE(run.summary.is_object()) << Describe(run.outcome);
+  SCOPED_TRACE(run.summary.dump(2));
+  EXPECT_EQ(BalanceOf(run.summary).lost, 0U);
+  const nlohmann::json& sensors = run.summary["position_error_mm"]["sensors"];
+  for (const char* wrist : {"1.right_fore_arm", "1.left_fore_arm"}) {
+    ASSERT_TRUE(sensors.contains(wrist)) << wrist;
+    EXPECT_GT(sensors[wrist]["count"].get<int>(), 300) << wrist;
+    EXPECT_LT(sensors[wrist]["rms"].get<double>(), 30.0) << wrist;
+  }
+  for (const char* shin : {"1.right_lower_leg", "1.left_lower_leg"}) {
+    ASSERT_TRUE(sensors.contains(shin)) << shin;
+    EXPECT_GT(sensors[shin]["count"].get<int>(), 300) << shin;
+    EXPECT_LT(sensors[shin]["rms"].get<double>(), 50.0) << shin;
+  }
+  ASSERT_TRUE(sensors.contains("1.pelvis"));
+  EXPECT_LT(sensors["1.pelvis"]["rms"].get<double>(), 20.0);
+  const nlohmann::json& skeleton = run.summary["position_error_mm"]["skeleton"];
+  for (const char* joint :
+       {"1.pelvis", "1.right_hand", "1.left_hand", "1.right_foot", "1.left_foot"}) {
+    ASSERT_TRUE(skeleton.contains(joint)) << joint;
+    EXPECT_LT(skeleton[joint]["rms"].get<double>(), 80.0) << joint;
+  }
+  EXPECT_NE(run.outcome.output.find("mm RMS"), std::string::npos);
+}
+
 TEST(DemoFaultsTest, BadSamplesAreRefusedByNameAndNothingElseSuffers) {
   const DemoRun run =
       RunDemo({"--seconds", "6", "--gateway-set", "simulator.faults.not_finite_rate=0.01",

@@ -67,6 +67,10 @@ Status Complete(service::ServiceCommandLine& line, DemoArguments& arguments) {
     }
     options.bus.domain_id = *domain;
   }
+  if (!options.recording.empty() && (options.coils || options.markers)) {
+    return Error{ErrorCode::kInvalidArgument,
+                 "--coils and --markers are of the simulated person, not of a --recording"};
+  }
   if (!options.recording.empty() && !std::filesystem::exists(options.recording)) {
     return Error{ErrorCode::kNotFound,
                  fmt::format("--recording {}: no such file or folder", options.recording)};

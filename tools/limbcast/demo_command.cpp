@@ -38,6 +38,10 @@ SubCommand AddDemoCommand(service::ServiceCommandLine& line) {
       "Of the recording: a factor, or max (default) for as fast as the pipeline takes it");
   app->add_option("--seconds", options.seconds, "End after so many seconds (default: Ctrl-C)")
       ->check(CLI::Range(0.1, 1e7));
+  app->add_flag("--coils", options.coils,
+                "The simulated person wears coils on the pelvis: wrists and shins have positions");
+  app->add_flag("--markers", options.markers,
+                "Cameras see a marker on the simulated person's pelvis");
   AddDemoOptions(*app, *arguments);
   return {.app = app, .run = [&line, arguments] { return RunDemo(line, *arguments); }};
 }

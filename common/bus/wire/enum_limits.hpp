@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "common/base/position_kind.hpp"
 #include "common/base/tracking.hpp"
 #include "common/base/verdict.hpp"
 #include "common/body/joint_angles.hpp"
@@ -19,6 +20,10 @@ inline constexpr E kLastOf = E{};
 
 template <>
 inline constexpr HeadingReference kLastOf<HeadingReference> = HeadingReference::kTrue;
+template <>
+inline constexpr FillKind kLastOf<FillKind> = FillKind::kPolynomial;
+template <>
+inline constexpr PositionReference kLastOf<PositionReference> = PositionReference::kSensor;
 template <>
 inline constexpr MagneticState kLastOf<MagneticState> = MagneticState::kDisturbed;
 template <>

@@ -33,6 +33,9 @@ void Fields(V& field, D& d, W& w) {
   field("filter", d.filter, w.filter());
   field("lost_count", d.lost_count, w.lost_count());
   field("verdicts", d.verdicts, w.verdict_counts());
+  field("position_reference", d.position_reference, w.position_reference());
+  field("position_from", d.position_from, w.position_from());
+  field("position_fill", d.position_fill, w.position_fill());
 }
 
 template <typename V, Of<body::SegmentFrame> D, typename W>
@@ -60,6 +63,7 @@ void Fields(V& field, D& d, W& w) {
   field("q_earth_sensor", d.q_earth_sensor, w.q_earth_sensor());
   field("q_earth_segment", d.q_earth_segment, w.q_earth_segment());
   field("p_earth_segment_m", d.p_earth_segment_m, w.p_earth_segment_m());
+  field("p_earth_sensor_m", d.p_earth_sensor_m, w.p_earth_sensor_m());
 }
 
 template struct Codec<body::SegmentState>;

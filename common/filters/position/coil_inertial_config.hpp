@@ -32,8 +32,8 @@ struct CoilInertialConfig {
   double sigma_background_tesla = 1.5e-6;  ///< Range: [1e-8, 1e-3]
   double background_period_s = 0.5;        ///< Range: [0, 10]
 
-  /// Half of the emitter's axes in which the sensor is at a start (unit vector); without it nobody
-  /// can say whether it is at p or at −p.
+  /// Half of the emitter's axes in which the sensor is at a start (unit vector); without it the
+  /// filter begins at p or at −p, and somebody else has to find out (CoilHypotheses).
   std::optional<Eigen::Vector3d> half_space;
   /// No start so close to the plane between the halves. Range: [0, 1.5]
   double half_space_boundary_rad = 0.35;
@@ -47,7 +47,10 @@ struct CoilInertialConfig {
   double start_sigma_gyro_bias_rad_s = 5.2e-3;
   double start_sigma_background_tesla = 1e-6;
   double rest_s = 0.25;           ///< mean of so long gives the first attitudes
-  double rest_below_rad_s = 0.2;  ///< of both gyros; after 2 s anything will do
+  double rest_below_rad_s = 0.2;  ///< of both gyros
+  /// Without rest for so long anything will do for the first attitudes; a track that begins so may
+  /// be wrong for some seconds.
+  double rest_patience_s = 2.0;
 
   /// A pose this uncertain begins a track: its covariance goes with it.
   double acquire_sigma_m = 0.35;

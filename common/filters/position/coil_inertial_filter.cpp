@@ -132,7 +132,7 @@ void CoilInertialFilter::Level(const sensing::CoilFrame& frame) {
   if (!last_) {
     begun_at_ = frame.measured_at;
   }
-  const bool patient = ToSeconds(frame.measured_at - begun_at_) < 2.0;
+  const bool patient = ToSeconds(frame.measured_at - begun_at_) < config_.rest_patience_s;
   const double rate_rad_s = std::max(
       frame.gyro_rad_s.norm(), frame.emitter_inertial ? frame.emitter_gyro_rad_s.norm() : 0.0);
   if (sums_.count == 0 || (patient && rate_rad_s > config_.rest_below_rad_s)) {

@@ -46,7 +46,9 @@ OpticalInertialFilter::OpticalInertialFilter(const OpticalInertialConfig& config
     : config_(config),
       noise_(NoiseOf(config)),
       inertial_gate_(config.accel_range_m_s2, config.gyro_range_rad_s),
-      start_(config.gravity_m_s2) {
+      start_(config.gravity_m_s2),
+      known_start_(config.gravity_m_s2,
+                   {config.lever_arm_x_m, config.lever_arm_y_m, config.lever_arm_z_m}) {
   Expects(Validate(config).ok(), "a valid OpticalInertialConfig");
 }
 
@@ -105,20 +107,44 @@ void OpticalInertialFilter::Start(Time at, const OpticalInertialState& state) {
   chain_begins_ = true;
 }
 
-void OpticalInertialFilter::StartFrom(Time at, const OpticalStartResult& start) {
+// @param navigation  of the sensor, r being what the configuration says.
+void OpticalInertialFilter::StartFrom(Time at, const NavigationState& navigation,
+                                      const Eigen::Vector3d& gyro_bias_rad_s) {
   OpticalInertialState state;
-  state.navigation = start.navigation;
-  state.errors.gyro_bias_rad_s = start.gyro_bias_rad_s;
+  state.navigation = navigation;
+  state.errors.gyro_bias_rad_s = gyro_bias_rad_s;
   state.g_in_earth_m_s2 = {0.0, 0.0, -config_.gravity_m_s2};
   state.p_sensor_marker_m = {config_.lever_arm_x_m, config_.lever_arm_y_m, config_.lever_arm_z_m};
   state.marker_lead_s = config_.marker_lead_s;
   state.errors.gyro_delay_s = config_.gyro_delay_s;
-  state.navigation.p_earth_sensor_m -= state.navigation.q_earth_sensor * state.p_sensor_marker_m;
-  start_result_ = start;
   Start(at, state);
 }
 
-OpticalStep OpticalInertialFilter::AddInertial(const sensing::MargSample& sample) {
+bool OpticalInertialFilter::LookForStart(Time at, const GatedInertial& inertial,
+                                         const std::optional<Eigen::Quaterniond>& q_known) {
+  const Time until = at + DurationFromSeconds(0.5 * inertial.dt_s);
+  const auto marker = marker_gate_.Take(until, marker_counters_);
+  if (q_known) {
+    const auto known = known_start_.Add(inertial.reading, inertial.dt_s, *q_known, marker);
+    if (known) {
+      StartFrom(at, *known, Eigen::Vector3d::Zero());
+    }
+    return known.has_value();
+  }
+  const auto start = start_.Add(at, inertial, marker);
+  if (start) {
+    start_result_ = start;
+    NavigationState navigation = start->navigation;  // of the marker's point
+    navigation.p_earth_sensor_m -=
+        navigation.q_earth_sensor *
+        Eigen::Vector3d(config_.lever_arm_x_m, config_.lever_arm_y_m, config_.lever_arm_z_m);
+    StartFrom(at, navigation, start->gyro_bias_rad_s);
+  }
+  return start.has_value();
+}
+
+OpticalStep OpticalInertialFilter::AddInertial(const sensing::MargSample& sample,
+                                               const std::optional<Eigen::Quaterniond>& q_known) {
   OpticalStep step;
   const GatedInertial inertial = inertial_gate_.Pass(sample);
   step.verdict = inertial.verdict;
@@ -132,9 +158,7 @@ OpticalStep OpticalInertialFilter::AddInertial(const sensing::MargSample& sample
   }
   if (!started_) {
     step.verdict = SampleVerdict::kStarting;
-    const Time until = at + DurationFromSeconds(0.5 * inertial.dt_s);
-    if (auto start = start_.Add(at, inertial, marker_gate_.Take(until, marker_counters_))) {
-      StartFrom(at, *start);
+    if (LookForStart(at, inertial, q_known)) {
       step.restarted = true;
       last_ = inertial.reading;
       accel_E_ = state_.navigation.q_earth_sensor * state_.errors.Correct(last_).accel_m_s2 +
@@ -308,6 +332,7 @@ void OpticalInertialFilter::Restart() {
   outliers_.Clear();
   ++restarts_;
   start_ = OpticalStart(config_.gravity_m_s2);
+  known_start_.Clear();
 }
 
 bool OpticalInertialFilter::GuardHealth() {

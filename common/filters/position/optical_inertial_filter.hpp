@@ -7,6 +7,7 @@
 #include "common/base/time.hpp"
 #include "common/base/verdict.hpp"
 #include "common/filters/position/inertial_gate.hpp"
+#include "common/filters/position/known_attitude_start.hpp"
 #include "common/filters/position/marker_gate.hpp"
 #include "common/filters/position/optical_inertial_config.hpp"
 #include "common/filters/position/optical_inertial_states.hpp"
@@ -52,7 +53,11 @@ class OpticalInertialFilter {
   explicit OpticalInertialFilter(const OpticalInertialConfig& config);
 
   MarkerVerdict AddMarker(const sensing::MarkerPosition& sample);
-  OpticalStep AddInertial(const sensing::MargSample& sample);
+  /// @param q_known  attitude in the optical frame that somebody else knows at this sample (about
+  ///                 10° in heading, 2° in tilt): a filter that is not started then starts from it
+  ///                 and the markers of a quarter of a second, in motion or at rest.
+  OpticalStep AddInertial(const sensing::MargSample& sample,
+                          const std::optional<Eigen::Quaterniond>& q_known = std::nullopt);
 
   /// Starts here, without looking for attitude: at `at`, with the covariance of the configuration.
   void Start(Time at, const OpticalInertialState& state);
@@ -74,7 +79,10 @@ class OpticalInertialFilter {
   [[nodiscard]] const std::optional<OpticalStartResult>& start() const { return start_result_; }
 
  private:
-  void StartFrom(Time at, const OpticalStartResult& start);
+  void StartFrom(Time at, const NavigationState& navigation,
+                 const Eigen::Vector3d& gyro_bias_rad_s);
+  [[nodiscard]] bool LookForStart(Time at, const GatedInertial& inertial,
+                                  const std::optional<Eigen::Quaterniond>& q_known);
   void ResetCovariance();
   void CrossDropout(double dt_s, Time at);
   void CloseBlock(Time at);
@@ -90,6 +98,7 @@ class OpticalInertialFilter {
   InertialGate inertial_gate_;
   MarkerGate marker_gate_;
   OpticalStart start_;
+  KnownAttitudeStart known_start_;
   std::optional<OpticalStartResult> start_result_;
   OutlierRun outliers_;
   bool doubted_ = false;  // outliers_ went on until the filter was in doubt

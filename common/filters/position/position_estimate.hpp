@@ -2,30 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <string_view>
 
+#include "common/base/position_kind.hpp"
 #include "common/base/time.hpp"
 
 namespace limbcast::filters {
 
-/// Where a position comes from.
-enum class FillKind : std::uint8_t {
-  kNone = 0,              ///< there is no position
-  kMeasured = 1,          ///< a marker was fused at this time
-  kInertialSmoothed = 2,  ///< between markers, from both sides
-  kInertialForward = 3,   ///< after the last marker so far, from one side
-  kPolynomial = 4,        ///< neither marker nor inertial readings: a curve between the ends
-};
-
-[[nodiscard]] constexpr std::string_view ToString(FillKind kind) {
-  constexpr std::array<std::string_view, 5> kNames = {"none", "measured", "inertial_smoothed",
-                                                      "inertial_forward", "polynomial"};
-  const auto index = static_cast<std::size_t>(kind);
-  return index < kNames.size() ? kNames[index] : "unknown";
-}
+using limbcast::FillKind;
 
 /// Position, velocity and attitude of an inertial unit, and of the marker on it, at one time.
 /// Frame: that of the optical system.

@@ -81,12 +81,15 @@ Status Demo::Begin() {
   bus_ = std::move(*bus);
   // Recordings may know the truth of the sensors only: that is compared with segment states.
   auto view = PipelineView::Make(
-      *bus_,
-      {.segment_states = options_.segment_states || !options_.recording.empty(), .truth = true});
+      *bus_, {.segment_states = options_.segment_states || !options_.recording.empty() ||
+                                options_.coils || options_.markers,
+              .truth = true});
   if (!view) {
     return view.error();
   }
   view_ = std::move(*view);
+  view_->With(
+      [&](PipelineModel& model) { model.judge_positions = options_.coils || options_.markers; });
   auto reference_pose = ReferencePose::Make(*bus_);
   if (!reference_pose) {
     return reference_pose.error();
@@ -188,6 +191,7 @@ void Demo::CountErrorsFromWhenItFits() {
       newest = std::max(newest, body.last.measured_at);
     }
     model.errors.CountFrom(newest + kSettle);
+    model.positions.CountFrom(newest + kSettle);
   });
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "common/units/units.hpp"
 
@@ -84,6 +86,38 @@ json ErrorJson(const OrientationErrors& errors) {
           {"count", summary->count}};
 }
 
+// Sensors and joints that the demo is about, the bodies together in one RMS value each.
+json PositionsJson(const std::map<PositionErrors::Key, PositionErrors::Summary>& all,
+                   std::span<const body::Segment> wanted) {
+  constexpr double kMillimetres = 1e3;
+  json result = json::object();
+  for (const auto& [key, summary] : all) {
+    const auto& [body_id, segment] = key;
+    if (summary.count == 0 ||
+        (!wanted.empty() && std::find(wanted.begin(), wanted.end(), segment) == wanted.end())) {
+      continue;
+    }
+    result[fmt::format("{}.{}", body_id.value, body::ToString(segment))] = {
+        {"rms", kMillimetres * summary.rms_m},
+        {"max", kMillimetres * summary.max_m},
+        {"sigma", kMillimetres * summary.sigma_m},
+        {"count", summary.count}};
+  }
+  return result;
+}
+
+json PositionErrorJson(const DemoOptions& options, const PositionErrors& positions) {
+  if (!options.coils && !options.markers) {
+    return nullptr;
+  }
+  using body::Segment;
+  // Hands and feet begin where the skeleton has wrists and ankles; the pelvis is its root.
+  static constexpr std::array kEnds = {Segment::kPelvis, Segment::kRightHand, Segment::kLeftHand,
+                                       Segment::kRightFoot, Segment::kLeftFoot};
+  return {{"sensors", PositionsJson(positions.sensors(), {})},
+          {"skeleton", PositionsJson(positions.joints(), kEnds)}};
+}
+
 }  // namespace
 
 json SummaryJson(const DemoOptions& options, const PipelineModel& model,
@@ -115,6 +149,7 @@ json SummaryJson(const DemoOptions& options, const PipelineModel& model,
           {"skeleton_rate_hz", model.skeleton_rate_hz()},
           {"latency_us", LatencyJson(model.latencies)},
           {"orientation_error_deg", ErrorJson(model.errors)},
+          {"position_error_mm", PositionErrorJson(options, model.positions)},
           {"reference_pose", outcome.reference_pose},
           {"cpu_us_per_body_frame", CpuJson(model, outcome)},
           {"cores_busy", CoresJson(model, outcome)},
@@ -162,6 +197,16 @@ std::string SummaryText(const json& summary) {
                                 ? "no truth to compare with"
                                 : fmt::format("{:.2f} deg RMS, {:.2f} deg at most",
                                               number(error["rms"]), number(error["max"])));
+  if (const json& positions = summary["position_error_mm"]; positions.is_object()) {
+    for (const auto& [kind, errors] : positions.items()) {
+      line("position error", kind == "sensors" ? "of sensors (coils: in the source's axes)"
+                                               : "of the skeleton (limbs: against the pelvis)");
+      for (const auto& [name, e] : errors.items()) {
+        line(fmt::format("  {}", name),
+             fmt::format("{:.1f} mm RMS, {:.1f} mm at most", number(e["rms"]), number(e["max"])));
+      }
+    }
+  }
   if (!summary["reference_pose"].get<std::string>().empty()) {
     line("reference pose", summary["reference_pose"].get<std::string>());
   }

@@ -55,6 +55,17 @@ std::vector<std::string> ArgumentsOf(Part part, const DemoOptions& options) {
   } else if (part == Part::kFusion) {
     add({"--set", "fusion.segment_frame=true"});
   }
+  // Before what the caller says, which then counts.
+  if (options.coils && part == Part::kGateway) {
+    add({"--set", "simulator.coils.source=pelvis", "--set", "simulator.iron=false"});
+  } else if (options.coils && part == Part::kFusion) {
+    add({"--set", "fusion.coils.source=pelvis"});
+  }
+  if (options.markers && part == Part::kGateway) {
+    add({"--set", "simulator.cameras.markers=[\"pelvis\"]"});
+  } else if (options.markers && part == Part::kFusion) {
+    add({"--set", "fusion.markers.segments=[\"pelvis\"]"});
+  }
   for (const std::string& setting : options.service_settings) {
     add({"--set", setting});
   }

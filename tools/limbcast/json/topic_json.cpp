@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/sensing/coil_flags.hpp"
 #include "tools/limbcast/json/value_json.hpp"
 
 namespace limbcast::tool {
@@ -13,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 json FlagsToJson(std::uint32_t flags) {
-  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 10> kNames = {{
+  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 14> kNames = {{
       {sensing::kGyroMissing, "gyro_missing"},
       {sensing::kAccelMissing, "accel_missing"},
       {sensing::kMagMissing, "mag_missing"},
@@ -24,6 +25,10 @@ json FlagsToJson(std::uint32_t flags) {
       {sensing::kCoilPulseActive, "coil_pulse_active"},
       {sensing::kTemperatureMissing, "temperature_missing"},
       {sensing::kProbe, "probe"},
+      {sensing::kCoilXOn, "coil_x_on"},
+      {sensing::kCoilYOn, "coil_y_on"},
+      {sensing::kCoilZOn, "coil_z_on"},
+      {sensing::kCoilReversed, "coil_reversed"},
   }};
   json names = json::array();
   for (const auto& [bit, name] : kNames) {
@@ -193,6 +198,10 @@ json ToJson(const body::SegmentState& value) {
     result["p_earth_sensor_m"] = VectorToJson(value.p_earth_sensor_m);
     result["v_earth_sensor_m_s"] = VectorToJson(value.v_earth_sensor_m_s);
     result["cov_position_m2"] = MatrixToJson(value.cov_position_m2);
+    result["position_from"] = value.position_reference == PositionReference::kEarth
+                                  ? std::string_view("earth")
+                                  : body::ToString(value.position_from);
+    result["position_fill"] = ToString(value.position_fill);
   }
   return result;
 }
@@ -211,7 +220,8 @@ json ToJson(const body::SegmentTruth& value) {
           {"segment_valid", value.segment_valid},
           {"q_earth_sensor", QuaternionToJson(value.q_earth_sensor)},
           {"q_earth_segment", QuaternionToJson(value.q_earth_segment)},
-          {"p_earth_segment_m", VectorToJson(value.p_earth_segment_m)}};
+          {"p_earth_segment_m", VectorToJson(value.p_earth_segment_m)},
+          {"p_earth_sensor_m", VectorToJson(value.p_earth_sensor_m)}};
 }
 
 json ToJson(const body::BodyDefinition& value) {

@@ -32,7 +32,17 @@ void PipelineModel::On(const body::Skeleton& value, Time received_at) {
   }
   latencies.Add(value, received_at);
   errors.AddSkeleton(value);
+  if (judge_positions) {
+    positions.AddSkeleton(value);
+  }
   body.last = value;
+}
+
+void PipelineModel::On(const body::SegmentTruth& value) {
+  errors.AddTruth(value);
+  if (judge_positions) {
+    positions.AddTruth(value);
+  }
 }
 
 void PipelineModel::On(const body::SegmentState& value, Time received_at) {
@@ -44,6 +54,9 @@ void PipelineModel::On(const body::SegmentState& value, Time received_at) {
   ++segment.states;
   segment.last_received_at = received_at;
   errors.AddSegmentState(value);
+  if (judge_positions) {
+    positions.AddSegmentState(value);
+  }
 }
 
 void PipelineModel::Mark() {

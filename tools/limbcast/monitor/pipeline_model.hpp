@@ -15,6 +15,7 @@
 #include "common/roster/roster.hpp"
 #include "tools/limbcast/monitor/health_ledger.hpp"
 #include "tools/limbcast/monitor/orientation_errors.hpp"
+#include "tools/limbcast/monitor/position_errors.hpp"
 #include "tools/limbcast/monitor/stage_latencies.hpp"
 
 namespace limbcast::tool {
@@ -47,7 +48,7 @@ struct PipelineModel {
   void On(const ServiceHealth& value) { health.Add(value); }
   void On(const body::Skeleton& value, Time received_at);
   void On(const body::SegmentState& value, Time received_at);
-  void On(const body::SegmentTruth& value) { errors.AddTruth(value); }
+  void On(const body::SegmentTruth& value);
   void On(const roster::RosterEntry& value) { bodies[value.body_id].person = value.person; }
 
   /// Latencies, CPU time and skeletons_since_mark count from now on; everything else goes on.
@@ -64,6 +65,8 @@ struct PipelineModel {
   HealthLedger health;
   StageLatencies latencies;
   OrientationErrors errors;
+  PositionErrors positions;
+  bool judge_positions = false;  ///< costs this process something for each state
   std::map<BodyId, BodyView> bodies;
   std::uint64_t probe_skeletons = 0;   ///< that came before anything was tracked
   std::uint64_t marked_skeletons = 0;  ///< that had come at Mark

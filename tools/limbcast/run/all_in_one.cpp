@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "services/gateway/calibrated_driver.hpp"
+#include "services/gateway/coil_pulse_driver.hpp"
 
 namespace limbcast::tool {
 
@@ -43,8 +44,9 @@ Result<std::unique_ptr<AllInOne>> AllInOne::Make(const AllInOneConfig& config, c
       std::make_unique<fusion::FusionService>(config.fusion, clock, bus, *made->fusion_pool_);
   made->gateway_ = std::make_unique<gateway::GatewayService>(
       config.gateway,
-      gateway::WithCalibrations(std::move(*driver), config.gateway.calibration_folder), clock, bus,
-      *made->gateway_pool_, std::move(on_end));
+      gateway::WithCoilPulses(
+          gateway::WithCalibrations(std::move(*driver), config.gateway.calibration_folder)),
+      clock, bus, *made->gateway_pool_, std::move(on_end));
 
   const auto report = [&](const char* role, service::HealthPublisher::Fill fill,
                           std::unique_ptr<service::HealthPublisher>& publisher) -> Status {

@@ -1,5 +1,6 @@
 #include "services/gateway/drivers/simulator/simulated_person.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -67,7 +68,11 @@ Result<SimulatedPerson> SimulatedPerson::Make(const SimulatorConfig& config, std
 
 SimulatedPerson::SimulatedPerson(const SimulatorConfig& config, std::uint32_t index,
                                  simulation::PersonMotion motion)
-    : motion_(std::move(motion)), magnetometer_(config.magnetometer) {
+    : motion_(std::move(motion)),
+      magnetometer_(config.magnetometer),
+      coils_(config.coils),
+      pulses_(PulsesOf(config.coils, index, SeedOf(config, index))),
+      index_(index) {
   if (config.iron) {
     world_.iron =
         simulation::MakeIronZones(motion_, config.n_pose_s + kIronAround_s, SeedOf(config, index));
@@ -78,12 +83,69 @@ SimulatedPerson::SimulatedPerson(const SimulatorConfig& config, std::uint32_t in
   for (const body::Segment segment : simulation::SegmentsOf(config.sensors)) {
     AddSensor(config, segment);
   }
+  if (coils_.source && Find(*coils_.source) == nullptr) {
+    coils_.source.reset();  // refused by SimulatorDriver::Make
+  }
+  AddCameras(config, SeedOf(config, index));
+}
+
+void SimulatedPerson::AddCameras(const SimulatorConfig& config, std::uint64_t seed) {
+  std::vector<SimulatedCameras::Marker> markers;
+  for (const body::Segment segment : config.cameras.markers) {
+    if (const Sensor* const sensor = Find(segment)) {
+      markers.push_back({.segment = segment, .mounting = sensor->mounting});
+    }
+  }
+  if (!markers.empty()) {
+    cameras_.emplace(config.cameras, std::move(markers), Random(seed, "cameras"));
+  }
+}
+
+const SimulatedPerson::Sensor* SimulatedPerson::Find(body::Segment segment) const {
+  const auto found = std::find_if(sensors_.begin(), sensors_.end(),
+                                  [&](const Sensor& sensor) { return sensor.segment == segment; });
+  return found == sensors_.end() ? nullptr : &*found;
+}
+
+std::optional<ActiveCoil> SimulatedPerson::CoilAt(double t_s) const {
+  if (!coils_.source) {
+    return std::nullopt;
+  }
+  const simulation::SensorMounting& mounting = Find(*coils_.source)->mounting;
+  ActiveCoil active;
+  active.emitter = simulation::AtPoint(motion_.At(t_s).segments[body::Index(*coils_.source)],
+                                       mounting.p_segment_sensor_m);
+  active.emitter.R_earth_local =
+      active.emitter.R_earth_local * mounting.q_segment_sensor.toRotationMatrix();
+  active.current = simulation::TrueCurrent(pulses_, t_s);
+  return active;
+}
+
+std::optional<CoilSourceInfo> SimulatedPerson::coil_source() const {
+  if (!coils_.source) {
+    return std::nullopt;
+  }
+  CoilSourceInfo info;
+  info.source_uid = Find(*coils_.source)->info.sensor_uid;
+  info.body_id = roster_entry_.body_id;
+  info.slot = index_ % coils_.slots;
+  info.sigma_mag_tesla = std::max(coils_.mag_noise_tesla, 1e-9);
+  info.current_a = coils_.current_a;
+  for (const body::Segment segment : coils_.sensors) {
+    if (const Sensor* const sensor = Find(segment)) {
+      info.sensors.push_back(sensor->info.sensor_uid);
+    }
+  }
+  return info;
 }
 
 void SimulatedPerson::AddSensor(const SimulatorConfig& config, body::Segment segment) {
   const std::uint32_t body = roster_entry_.body_id.value;
   const std::uint64_t seed = SeedOf(config, body - 1);
-  const simulation::MargErrors errors = simulation::MakeMargErrors(config.noise);
+  simulation::MargErrors errors = simulation::MakeMargErrors(config.noise);
+  if (config.coils.source) {
+    errors.mag = CoilMagErrors(config.coils);
+  }
   const std::string name(body::ToString(segment));
   const std::string serial = config.serial_prefix + "-" + std::to_string(body) + "-" + name;
   const sensing::SensorInfo info = InfoOf(config, errors, serial, name);
@@ -106,11 +168,23 @@ std::vector<sensing::SensorInfo> SimulatedPerson::sensors() const {
   return infos;
 }
 
-void SimulatedPerson::Next(Time measured_at, double t_s, Batch& batch) {
+void SimulatedPerson::Next(Time measured_at, double t_s, Batch& batch,
+                           std::span<const ActiveCoil> coils) {
   const simulation::PersonPose pose = motion_.At(t_s);
+  if (coils_.source) {
+    batch.coil_drives.push_back({.source_uid = Find(*coils_.source)->info.sensor_uid,
+                                 .drive = simulation::StatedDrive(pulses_, t_s)});
+  }
+  if (cameras_) {
+    cameras_->Next(motion_, roster_entry_.body_id, measured_at, t_s, batch.markers);
+  }
   for (Sensor& sensor : sensors_) {
     const simulation::RigidMotion& segment = pose.segments[body::Index(sensor.segment)];
-    const simulation::IdealMarg ideal = simulation::MakeIdealMarg(segment, sensor.mounting, world_);
+    simulation::IdealMarg ideal = simulation::MakeIdealMarg(segment, sensor.mounting, world_);
+    for (const ActiveCoil& active : coils) {
+      ideal.mag_tesla += ideal.q_earth_sensor.conjugate() *
+                         FieldOf_tesla(coils_.coils, active, ideal.p_earth_sensor_m);
+    }
     sensing::MargSample sample;
     sample.sensor_uid = sensor.info.sensor_uid;
     sample.measured_at = measured_at;
@@ -133,6 +207,7 @@ void SimulatedPerson::Next(Time measured_at, double t_s, Batch& batch) {
     truth.q_earth_sensor = math::Canonical(ideal.q_earth_sensor);
     truth.q_earth_segment = math::Canonical(math::QuaternionFromMatrix(segment.R_earth_local));
     truth.p_earth_segment_m = segment.p_earth_local_m;
+    truth.p_earth_sensor_m = ideal.p_earth_sensor_m;
     batch.truth.push_back(truth);
   }
   ++tick_;

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "common/base/result.hpp"
@@ -20,8 +21,15 @@ class SimulatedPerson {
   [[nodiscard]] static Result<SimulatedPerson> Make(const SimulatorConfig& config,
                                                     std::uint32_t index);
 
-  /// Appends the samples and the truth of the next tick.
-  void Next(Time measured_at, double t_s, Batch& batch);
+  /// The coils that this person wears, `t_s` after the begin; nothing when there are none.
+  [[nodiscard]] std::optional<ActiveCoil> CoilAt(double t_s) const;
+
+  /// Appends the samples, markers, coil drive and truth of the next tick; `coils` are those of
+  /// everybody.
+  void Next(Time measured_at, double t_s, Batch& batch, std::span<const ActiveCoil> coils = {});
+
+  /// As the driver describes it; nothing without coils.
+  [[nodiscard]] std::optional<CoilSourceInfo> coil_source() const;
 
   [[nodiscard]] const roster::RosterEntry& roster_entry() const { return roster_entry_; }
   [[nodiscard]] std::vector<sensing::SensorInfo> sensors() const;
@@ -39,12 +47,18 @@ class SimulatedPerson {
   SimulatedPerson(const SimulatorConfig& config, std::uint32_t index,
                   simulation::PersonMotion motion);
   void AddSensor(const SimulatorConfig& config, body::Segment segment);
+  void AddCameras(const SimulatorConfig& config, std::uint64_t seed);
+  [[nodiscard]] const Sensor* Find(body::Segment segment) const;
 
   simulation::PersonMotion motion_;
   simulation::MagneticWorld world_;
   bool magnetometer_;
   roster::RosterEntry roster_entry_;
   std::vector<Sensor> sensors_;
+  SimulatedCoilsConfig coils_;
+  simulation::CoilPulseConfig pulses_;
+  std::uint32_t index_;
+  std::optional<SimulatedCameras> cameras_;
   std::uint64_t tick_ = 0;
 };
 

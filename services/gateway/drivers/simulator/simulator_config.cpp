@@ -99,6 +99,8 @@ SimulatorConfig ReadSimulatorConfig(const config::Section& section, SimulatorCon
   config.magnetometer = section.Read("magnetometer", config.magnetometer);
   config.serial_prefix = section.Read("serial_prefix", config.serial_prefix, kMaxPrefix);
   ReadFaults(section.Get("faults"), config.faults);
+  config.coils = ReadSimulatedCoils(section.Get("coils"), std::move(config.coils));
+  config.cameras = ReadSimulatedCameras(section.Get("cameras"), std::move(config.cameras));
   return config;
 }
 
@@ -119,6 +121,12 @@ Status Validate(const SimulatorConfig& config) {
     return Error{ErrorCode::kInvalidArgument,
                  "simulator.serial_prefix must have at most 16 characters, has " +
                      std::to_string(config.serial_prefix.size())};
+  }
+  if (const Status coils = Validate(config.coils); !coils) {
+    return coils;
+  }
+  if (const Status cameras = Validate(config.cameras); !cameras) {
+    return cameras;
   }
   return Validate(config.faults);
 }

@@ -9,6 +9,8 @@
 #include "common/simulation/random.hpp"
 #include "common/simulation/sensor_set.hpp"
 #include "services/gateway/drivers/simulator/fault_injector.hpp"
+#include "services/gateway/drivers/simulator/simulated_cameras.hpp"
+#include "services/gateway/drivers/simulator/simulated_coils.hpp"
 
 namespace limbcast::gateway {
 
@@ -69,6 +71,9 @@ struct SimulatorConfig {
   /// gap_rate, mag_missing_rate, gap_ticks; and [[simulator.faults.list]] {tick, body, segment,
   /// fault}.
   FaultConfig faults;
+
+  SimulatedCoilsConfig coils;      ///< [simulator.coils]
+  SimulatedCamerasConfig cameras;  ///< [simulator.cameras]
 };
 
 /// Reads [simulator]; refusals are remembered in the section's file.

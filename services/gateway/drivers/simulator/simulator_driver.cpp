@@ -1,5 +1,6 @@
 #include "services/gateway/drivers/simulator/simulator_driver.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -19,11 +20,39 @@ Result<std::vector<SimulatedPerson>> MakePersons(const SimulatorConfig& config) 
   return persons;
 }
 
+// Coils and markers sit on sensors, so those must be there.
+Status CheckWorn(const SimulatorConfig& config) {
+  const auto worn = simulation::SegmentsOf(config.sensors);
+  const auto check = [&](const char* key, body::Segment segment) {
+    if (std::find(worn.begin(), worn.end(), segment) != worn.end()) {
+      return Ok();
+    }
+    return Status(Error{ErrorCode::kInvalidArgument,
+                        "simulator." + std::string(key) + ": " +
+                            std::string(body::ToString(segment)) +
+                            " carries no sensor in this set of simulator.sensors"});
+  };
+  Status worn_well = Ok();
+  if (config.coils.source) {
+    worn_well = check("coils.source", *config.coils.source);
+    for (const body::Segment segment : config.coils.sensors) {
+      worn_well = worn_well ? check("coils.sensors", segment) : worn_well;
+    }
+  }
+  for (const body::Segment segment : config.cameras.markers) {
+    worn_well = worn_well ? check("cameras.markers", segment) : worn_well;
+  }
+  return worn_well;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<SimulatorDriver>> SimulatorDriver::Make(const SimulatorConfig& config) {
   if (const Status ok = Validate(config); !ok) {
     return ok.error();
+  }
+  if (Status worn = CheckWorn(config); !worn) {
+    return worn.error();
   }
   auto persons = MakePersons(config);
   if (!persons) {
@@ -43,6 +72,10 @@ SimulatorDriver::SimulatorDriver(const SimulatorConfig& config,
   description_.has_truth = true;
   for (const SimulatedPerson& person : persons_) {
     description_.bodies.push_back(person.roster_entry());
+    if (auto source = person.coil_source()) {
+      description_.bodies.back().coil_slot = source->slot + 1;
+      description_.coil_sources.push_back(*std::move(source));
+    }
     for (sensing::SensorInfo& info : person.sensors()) {
       description_.sensors.push_back(std::move(info));
     }
@@ -57,8 +90,14 @@ Result<DriverStep> SimulatorDriver::Next(Batch& batch) {
     return DriverStep::kEnd;
   }
   batch.tick_at = Time{DurationFromSeconds(t_s)};
+  coils_.clear();
+  for (const SimulatedPerson& person : persons_) {
+    if (const auto active = person.CoilAt(t_s); active && active->current.current_a != 0.0) {
+      coils_.push_back(*active);
+    }
+  }
   for (SimulatedPerson& person : persons_) {
-    person.Next(batch.tick_at, t_s, batch);
+    person.Next(batch.tick_at, t_s, batch, coils_);
   }
   ++tick_;
   return DriverStep::kData;

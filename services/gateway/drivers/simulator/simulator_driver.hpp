@@ -30,6 +30,7 @@ class SimulatorDriver final : public Driver {
   SimulatorConfig config_;
   std::vector<SimulatedPerson> persons_;
   DriverDescription description_;
+  std::vector<ActiveCoil> coils_;  // that are on in this tick
   std::uint64_t tick_ = 0;
 };
 

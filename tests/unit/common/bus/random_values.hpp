@@ -67,11 +67,14 @@ LIMBCAST_FIELDS(body::SegmentState) {
   for (std::size_t i = 0; i < kSampleVerdictCount; ++i) {
     F(verdicts.count[i]);
   }
+  ENUM(position_reference, PositionReference::kSensor);
+  ENUM(position_from, body::Segment::kLeftToe), ENUM(position_fill, FillKind::kPolynomial);
 }
 LIMBCAST_FIELDS(body::SegmentFrame) { F(body_id), LIST(states, 64); }
 LIMBCAST_FIELDS(body::SegmentTruth) {
   F(body_id), ENUM(segment, body::Segment::kLeftToe), F(sensor_uid), F(measured_at);
   F(sensor_valid), F(segment_valid), F(q_earth_sensor), F(q_earth_segment), F(p_earth_segment_m);
+  F(p_earth_sensor_m);
 }
 LIMBCAST_FIELDS(body::SegmentDefinition) {
   ENUM(segment, body::Segment::kLeftToe), F(tracked), F(sensor_uid), F(p_parent_segment_m);

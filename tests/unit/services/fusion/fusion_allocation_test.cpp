@@ -5,10 +5,12 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/bus/segment_state_reader.hpp"
 #include "services/fusion/fusion_service.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/position_run.hpp"
 #include "tests/unit/services/fusion/fusion_fixture.hpp"
 
 namespace limbcast::fusion {
@@ -80,6 +82,59 @@ TEST_P(FusionWaysOutTest, NoAllocationFromSampleToStateAfterTheStart) {
   EXPECT_EQ(test_support::AllocationCount(), allocations_at_start);
   EXPECT_EQ(states, 1'000U * 3U * 2U);
   EXPECT_EQ(service.counters().verdicts[SampleVerdict::kRejectedDuplicate], 1'000U);
+}
+
+// Neither the first pulse, nor the first marker, nor the start of a track.
+TEST(FusionAllocationTest, PositionsAllocateWithTheRosterOnly) {
+  gateway::SimulatorConfig simulator = test_support::CoilPeople();
+  simulator.n_pose_s = 1.0;
+  simulator.cameras.markers = {body::Segment::kPelvis};
+  const auto driver = gateway::WithCoilPulses(*gateway::SimulatorDriver::Make(simulator));
+  test_support::FakeClock clock;
+  const Time start = clock.Now();
+  constexpr std::size_t kTicks = 500;
+  std::vector<gateway::Batch> batches(kTicks);
+  for (std::size_t tick = 0; tick < kTicks; ++tick) {
+    gateway::Batch& batch = batches[tick];
+    ASSERT_TRUE(driver->Next(batch));
+    for (sensing::MargSample& sample : batch.marg) {
+      sample.sequence = static_cast<std::uint32_t>(tick + 1);
+      sample.measured_at += start.time_since_epoch();
+    }
+    for (sensing::MarkerPosition& marker : batch.markers) {
+      marker.measured_at += start.time_since_epoch();
+    }
+  }
+  const auto hub = bus::inproc::MakeHub(&clock);
+  const auto outside = bus::inproc::MakeBus(hub);
+  const auto inside = bus::inproc::MakeBus(hub);
+  test_support::ImmediatePool pool;
+  FusionConfig config;
+  config.position = test_support::CoilAid();
+  config.position.markers.segments = {body::Segment::kPelvis};
+  FusionService service(config, clock, *inside, pool);
+  ASSERT_TRUE(service.Start().ok());
+  const auto roster = *outside->MakeWriter<roster::RosterEntry>();
+  ASSERT_TRUE(roster->Write(driver->Describe().bodies[0]).ok());
+  const auto marg = *outside->MakeWriter<sensing::MargSample>();
+  const auto markers = *outside->MakeWriter<sensing::MarkerPosition>();
+  constexpr std::size_t kBeforeTheFirstPulse = 40;
+  std::size_t allocations_at_start = 0;
+  for (std::size_t tick = 0; tick < kTicks; ++tick) {
+    if (tick == kBeforeTheFirstPulse) {
+      EXPECT_LT(service.counters().positions, 2 * kBeforeTheFirstPulse);
+      allocations_at_start = test_support::AllocationCount();
+    }
+    clock.Advance(std::chrono::milliseconds(10));
+    for (const sensing::MarkerPosition& marker : batches[tick].markers) {
+      ASSERT_TRUE(markers->Write(marker).ok());
+    }
+    for (const sensing::MargSample& sample : batches[tick].marg) {
+      ASSERT_TRUE(marg->Write(sample).ok());
+    }
+  }
+  EXPECT_EQ(test_support::AllocationCount(), allocations_at_start);
+  EXPECT_GT(service.counters().positions, 3 * 200U) << "the pelvis, and limbs in motion";
 }
 
 }  // namespace

@@ -24,6 +24,10 @@ TEST(SegmentCodecTest, NumbersThatAreNoEnumeratorsAreRefused) {
   received.magnetic_state(3);
   ExpectCorrupt<body::SegmentState>(
       received, "segment_state.magnetic_state has 3 as its number, at most 2 are allowed");
+  received.magnetic_state(2);
+  received.position_reference(2);
+  ExpectCorrupt<body::SegmentState>(
+      received, "segment_state.position_reference has 2 as its number, at most 1 are allowed");
 }
 
 TEST(SegmentCodecTest, AFrameWithOneWrongStateIsRefused) {

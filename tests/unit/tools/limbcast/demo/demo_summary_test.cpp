@@ -97,5 +97,32 @@ TEST_F(DemoSummaryTest, ProgressIsOneLine) {
   EXPECT_THAT(line, HasSubstr("200 skeletons, 100.0/s"));
 }
 
+TEST_F(DemoSummaryTest, PositionsAreSummedUpWhereTheyWereAskedFor) {
+  EXPECT_TRUE(SummaryJson({}, model_, outcome_)["position_error_mm"].is_null());
+  model_.judge_positions = true;
+  model_.positions.CountFrom(kStart);
+  for (int i = 0; i < 100; ++i) {
+    body::SegmentTruth truth;
+    truth.body_id = BodyId{1};
+    truth.measured_at = kStart + i * 10ms;
+    truth.segment_valid = true;
+    model_.On(truth);
+    body::SegmentState state;
+    state.body_id = BodyId{1};
+    state.measured_at = truth.measured_at;
+    state.verdict = SampleVerdict::kFused;
+    state.started = state.has_position = true;
+    state.p_earth_sensor_m.y() = 0.004F;
+    model_.On(state, state.measured_at);
+  }
+  DemoOptions options;
+  options.markers = true;
+  const nlohmann::json summary = SummaryJson(options, model_, outcome_);
+  const nlohmann::json& pelvis = summary["position_error_mm"]["sensors"]["1.pelvis"];
+  EXPECT_NEAR(pelvis["rms"].get<double>(), 4.0, 1e-3);
+  EXPECT_GT(pelvis["count"].get<int>(), 30);
+  EXPECT_THAT(SummaryText(summary), HasSubstr("4.0 mm RMS"));
+}
+
 }  // namespace
 }  // namespace limbcast::tool

@@ -57,6 +57,18 @@ TEST_F(PipelineProcessesTest, SettingsGoToTheServiceTheyAreFor) {
               ::testing::Not(::testing::Contains(HasSubstr("filter.name"))));
 }
 
+TEST_F(PipelineProcessesTest, CoilsAndMarkersAreWornAndListenedTo) {
+  using ::testing::Contains;
+  EXPECT_THAT(ArgumentsOf(Part::kGateway, options_), ::testing::Not(Contains(HasSubstr("coils"))));
+  options_.coils = options_.markers = true;
+  EXPECT_THAT(ArgumentsOf(Part::kGateway, options_), Contains("simulator.coils.source=pelvis"));
+  EXPECT_THAT(ArgumentsOf(Part::kFusion, options_), Contains("fusion.coils.source=pelvis"));
+  EXPECT_THAT(ArgumentsOf(Part::kGateway, options_), Contains(HasSubstr("cameras.markers")));
+  EXPECT_THAT(ArgumentsOf(Part::kFusion, options_), Contains(HasSubstr("markers.segments")));
+  options_.fusion_settings = {"fusion.coils.source=t8"};
+  EXPECT_EQ(ArgumentsOf(Part::kFusion, options_).back(), "fusion.coils.source=t8");
+}
+
 TEST_F(PipelineProcessesTest, RecordingIsPlayedToItsEndAsFastAsItGoes) {
   options_.recording = "/data/a b.hdf5";
   const auto arguments = ArgumentsOf(Part::kGateway, options_);

@@ -61,6 +61,10 @@ TEST(TopicJsonTest, PositionOfASegmentStateIsThereOnlyWhenItMeansSomething) {
   EXPECT_FALSE(ToJson(state).contains("p_earth_sensor_m"));
   state.has_position = true;
   EXPECT_TRUE(ToJson(state).contains("p_earth_sensor_m"));
+  EXPECT_EQ(ToJson(state)["position_from"], "earth");
+  state.position_reference = PositionReference::kSensor;
+  state.position_from = body::Segment::kT8;
+  EXPECT_EQ(ToJson(state)["position_from"], "t8");
 }
 
 TEST(TopicJsonTest, VerdictsThatNeverHappenedAreLeftOut) {

@@ -1,0 +1,79 @@
+#include "services/fusion/coil_track.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "common/base/expects.hpp"
+#include "common/math/rotation.hpp"
+#include "common/sensing/coil_flags.hpp"
+
+namespace limbcast::fusion {
+namespace {
+
+using Index = filters::CoilInertialIndex;
+
+constexpr std::uint32_t kMagUseless =
+    sensing::kMagMissing | sensing::kMagSaturated | sensing::kMagHeld;
+constexpr std::uint32_t kInertialMissing = sensing::kGyroMissing | sensing::kAccelMissing;
+constexpr std::uint32_t kInertialSaturated = sensing::kGyroSaturated | sensing::kAccelSaturated;
+
+filters::CoilHypotheses MakeValid(const filters::CoilInertialConfig& config) {
+  auto made = filters::CoilHypotheses::Make(config);
+  Expects(made.ok(), "a validated coil filter");
+  return *made;
+}
+
+// What is not there is NaN: the filter then holds what it had.
+Eigen::Vector3d OrNaN(const Eigen::Vector3f& reading, bool there) {
+  return there ? Eigen::Vector3d(reading.cast<double>())
+               : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace
+
+CoilTrack::CoilTrack(const CoilAidConfig& config)
+    : current_a_(config.current_a), filter_(MakeValid(config.filter)) {}
+
+std::optional<SegmentPosition> CoilTrack::Update(const sensing::MargSample& sample,
+                                                 const sensing::MargSample& source,
+                                                 const Eigen::Quaterniond& q_earth_source) {
+  const double apart_s = ToSeconds(source.measured_at - sample.measured_at);
+  const bool together = std::abs(apart_s) <= kMostApart_s;
+  const bool sensor_there = (sample.flags & kInertialMissing) == 0;
+  const bool source_there = together && (source.flags & kInertialMissing) == 0;
+  sensing::CoilFrame frame;
+  frame.measured_at = sample.measured_at;
+  frame.gyro_rad_s = OrNaN(sample.gyro_rad_s, sensor_there);
+  frame.accel_m_s2 = OrNaN(sample.accel_m_s2, sensor_there);
+  frame.mag_tesla = sample.mag_tesla.cast<double>();
+  frame.mag_valid = (sample.flags & kMagUseless) == 0;
+  frame.inertial_saturated = ((sample.flags | source.flags) & kInertialSaturated) != 0;
+  frame.emitter_gyro_rad_s = OrNaN(source.gyro_rad_s, source_there);
+  frame.emitter_accel_m_s2 = OrNaN(source.accel_m_s2, source_there);
+  frame.drive = sensing::CoilDriveOf(sample.flags, current_a_);
+  const filters::CoilUpdateReport report = filter_.Update(frame);
+  if (!filter_.valid() || report.verdict == filters::CoilFrameVerdict::kRejectedOutOfOrder) {
+    return std::nullopt;
+  }
+  const filters::CoilInertialState& state = filter_.filter().state();
+  const filters::CoilCovariance& P = filter_.filter().covariance();
+  // From the filter's earth frame, whose heading is its own, into that of the orientation filter:
+  // p = R R_mᵀ p' , so δp = R R_mᵀ (δp' + [p']× θ_m).
+  const Eigen::Matrix3d R = (q_earth_source * state.q_earth_emitter.conjugate()).toRotationMatrix();
+  Eigen::Matrix<double, 3, 6> J;
+  J << R, R * math::Skew(state.p_earth_m);
+  Eigen::Matrix<double, 6, 6> P_pm;
+  P_pm << P.block<3, 3>(Index::kP, Index::kP), P.block<3, 3>(Index::kP, Index::kEmitterTheta),
+      P.block<3, 3>(Index::kEmitterTheta, Index::kP),
+      P.block<3, 3>(Index::kEmitterTheta, Index::kEmitterTheta);
+  SegmentPosition position;
+  position.p_earth_sensor_m = R * state.p_earth_m;
+  position.v_earth_sensor_m_s = R * state.v_earth_m_s;
+  position.cov_position_m2 = J * P_pm * J.transpose();
+  const bool pulse = frame.drive.coil >= 0 && frame.drive.settled &&
+                     report.verdict == filters::CoilFrameVerdict::kUsed;
+  position.fill = pulse ? FillKind::kMeasured : FillKind::kInertialForward;
+  return position;
+}
+
+}  // namespace limbcast::fusion
