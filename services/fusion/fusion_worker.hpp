@@ -40,7 +40,7 @@ class FusionWorker {
   using Work = std::variant<sensing::MargSample, sensing::FusedOrientation, sensing::MarkerPosition,
                             std::shared_ptr<const BodyPlan>>;
 
-  /// What is referred to, `config` too, outlives it.
+  /// What is referred to outlives it.
   FusionWorker(const FusionConfig& config, const FilterFactory& factory, const Clock& clock,
                StateWriters& writers, FusionLatencies& latencies);
 
@@ -111,7 +111,7 @@ class FusionWorker {
   std::array<InRound, kFlushEvery> round_;
   std::size_t round_size_ = 0;
   std::unordered_map<SensorUid, Tracked> tracks_;
-  const PositionConfig& position_config_;
+  const PositionConfig position_config_;
   std::unordered_map<BodyId, BodyPositions> positions_;  // of bodies that have any
   CounterCells counters_;
   StatePublisher publisher_;
