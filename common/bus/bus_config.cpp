@@ -52,6 +52,9 @@ Status ValidateNames(const BusConfig& config) {
       return OutOfRange("network", "names or addresses of interfaces", '"' + name + '"');
     }
   }
+  if (!config.security_dir.empty() && !IsPlainName(config.security_role)) {
+    return OutOfRange("security_role", "the name of a role", '"' + config.security_role + '"');
+  }
   for (const std::string& peer : config.peers) {
     if (!IsPlainName(peer)) {
       return OutOfRange("peers", "names or addresses of hosts", '"' + peer + '"');

@@ -50,6 +50,14 @@ struct BusConfig {
   /// Samples kept for each instance of a stream. Range: [1, 1024].
   std::int32_t stream_depth = 16;
 
+  /// Folder of `limbcast security create`: DDS Security with the credentials of `security_role` in
+  /// it. Everything is encrypted and only bearers of the same authority's credentials are heard.
+  /// Empty = no security.
+  std::string security_dir;
+
+  /// Which role's credentials (security::DefaultRoles); decides what may be published and heard.
+  std::string security_role = "spectator";
+
   /// Gather small samples into packets until Flush (Cyclone only; the others ignore it).
   bool write_batching = false;
 };

@@ -1,6 +1,8 @@
 #include "common/bus/bus_factory.hpp"
 
 #include "common/bus/inproc/inproc_bus.hpp"
+#include "common/bus/system_now.hpp"
+#include "common/security/credentials.hpp"
 #ifdef LIMBCAST_BUS_HAS_CYCLONE
 #include "common/bus/cyclone/cyclone_bus.hpp"
 #endif
@@ -9,10 +11,33 @@
 #endif
 
 namespace limbcast::bus {
+namespace {
+
+// A library says little about credentials that it refuses, and nothing at all when it is the peer
+// that refuses them: what can be found wrong with them is found here.
+Status CheckSecurity(const BusConfig& config) {
+  if (config.security_dir.empty()) {
+    return Ok();
+  }
+  if (config.vendor == Vendor::kInproc) {
+    return Error{ErrorCode::kInvalidArgument,
+                 "bus.security_dir: inproc has no network that could be secured"};
+  }
+  const auto library =
+      config.vendor == Vendor::kFast ? security::Library::kFast : security::Library::kCyclone;
+  const auto files =
+      security::CheckCredentials(config.security_dir, config.security_role, library, SystemNow());
+  return files ? Ok() : Status(files.error());
+}
+
+}  // namespace
 
 Result<std::unique_ptr<Bus>> Open(const BusConfig& config, BusEventHandler on_event) {
   if (const Status valid = Validate(config); !valid) {
     return valid.error();
+  }
+  if (const Status secured = CheckSecurity(config); !secured) {
+    return secured.error();
   }
   switch (config.vendor) {
     case Vendor::kInproc:

@@ -125,9 +125,13 @@ class Client::Impl {
 
 Status Client::Impl::Join(bus::Bus& bus) {
   bus_ = &bus;
-  auto commands = Requester<roster::Command, roster::CommandReply>::Make(bus, DrawClientUid());
-  if (!commands) {
-    return commands.error();
+  const bool only_listens = OnlyListens(options_);
+  if (!only_listens) {
+    auto commands = Requester<roster::Command, roster::CommandReply>::Make(bus, DrawClientUid());
+    if (!commands) {
+      return commands.error();
+    }
+    commands_ = std::move(*commands);
   }
   auto entries = bus.MakeReader<roster::RosterEntry>(
       {.on_sample =
@@ -155,11 +159,10 @@ Status Client::Impl::Join(bus::Bus& bus) {
   if (!skeletons) {
     return skeletons.error();
   }
-  commands_ = std::move(*commands);
   entries_ = std::move(*entries);
   definitions_ = std::move(*definitions);
   skeletons_ = std::move(*skeletons);
-  return options_.session.empty() ? Ok() : JoinSession(bus);
+  return options_.session.empty() || only_listens ? Ok() : JoinSession(bus);
 }
 
 Status Client::Impl::JoinSession(bus::Bus& bus) {
@@ -281,6 +284,10 @@ std::optional<Pose> Client::Impl::PoseAt(BodyId body_id, Time at) const {
 }
 
 Result<roster::CommandReply> Client::Impl::Send(roster::Command command, Duration timeout) {
+  if (commands_ == nullptr) {
+    return Error{ErrorCode::kInvalidArgument,
+                 "a spectator of a secured network publishes nothing, no command either"};
+  }
   const auto until = std::chrono::steady_clock::now() + timeout;
   {
     // First see the person whom a service speaks for: then the service itself is found, too.

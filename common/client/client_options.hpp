@@ -30,6 +30,11 @@ struct ClientOptions {
   std::string person = "guest";                  ///< in the session; 1 to 64 bytes
   std::vector<roster::SensorAssignment> sensors{};  ///< a performer's
   Duration join_timeout = std::chrono::seconds(5);  ///< for the session host to answer
+
+  /// Folder of `limbcast security create` on a secured network; empty = none. As a spectator the
+  /// client then only listens: it joins no session (the host does not count it) and sends nothing.
+  std::string security_dir{};
+  std::string security_role{};  ///< whose credentials of it; empty = those of `role`
 };
 
 }  // namespace limbcast::client

@@ -12,6 +12,13 @@ namespace {
 constexpr std::uint32_t kMaxDomainId = 101;      // above, ports fall into the ephemeral range
 constexpr std::size_t kMaxPartitionLength = 64;  // bound of the wire types that carry it
 constexpr std::size_t kMaxTextLength = 255;
+constexpr std::size_t kMaxPathLength = 4096;
+
+// "limbcast-fusion" bears the role "fusion"; the program of all commands looks and commands.
+std::string RoleOf(const std::string& program) {
+  constexpr std::string_view kPrefix = "limbcast-";
+  return program.starts_with(kPrefix) ? program.substr(kPrefix.size()) : "operator";
+}
 }  // namespace
 
 bus::BusConfig ReadBusConfig(const config::Section& section, bus::BusConfig defaults) {
@@ -33,6 +40,8 @@ bus::BusConfig ReadBusConfig(const config::Section& section, bus::BusConfig defa
     }
   }
   config.peers = section.Read("peers", config.peers);
+  config.security_dir = section.Read("security_dir", config.security_dir, kMaxPathLength);
+  config.security_role = section.Read("security_role", config.security_role, kMaxTextLength);
   config.ownership_strength =
       section.Read("ownership_strength", config.ownership_strength, 0, 1000);
   config.stream_lease = DurationFromSeconds(
@@ -54,12 +63,21 @@ ServiceCommandLine::ServiceCommandLine(std::string program, std::string descript
       .add_option("--peer", peers_, "Address of a host to look for; may be given several times")
       ->allow_extra_args(false);
   app()
+      .add_option("--security", security_dir_,
+                  "DDS Security with the credentials in a folder of `limbcast security create`")
+      ->type_name("DIR");
+  app().add_option("--security-role", security_role_,
+                   "Whose credentials of it (default: those of this program)");
+  app()
       .add_option("--log-level", log_level_, "What to say on stderr")
       ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}));
 }
 
-Result<bus::BusConfig> ServiceCommandLine::ReadBus(const config::ConfigFile& file) const {
-  bus::BusConfig config = ReadBusConfig(file.Get("bus"));
+Result<bus::BusConfig> ServiceCommandLine::ReadBus(const config::ConfigFile& file,
+                                                   const std::string& role) const {
+  bus::BusConfig defaults;
+  defaults.security_role = role.empty() ? RoleOf(program()) : role;
+  bus::BusConfig config = ReadBusConfig(file.Get("bus"), defaults);
   config.participant_name = program();
   if (dds_) {
     const Result<bus::Vendor> vendor = bus::ParseVendor(*dds_);
@@ -78,6 +96,8 @@ Result<bus::BusConfig> ServiceCommandLine::ReadBus(const config::ConfigFile& fil
   if (!peers_.empty()) {
     config.peers = peers_;
   }
+  config.security_dir = security_dir_.value_or(config.security_dir);
+  config.security_role = security_role_.value_or(config.security_role);
   if (const Status valid = bus::Validate(config); !valid) {
     return valid.error();
   }

@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(rooms base math units sensing body roster runtime wire_types bus client)
+set(rooms base math units security sensing body roster runtime wire_types bus client)
 set(script "CREATE ${PROJECT_BINARY_DIR}/liblimbcast-client.a\n")
 set(archives)
 foreach(room IN LISTS rooms)
@@ -20,9 +20,9 @@ add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/liblimbcast-client.a
   DEPENDS ${archives} ${PROJECT_BINARY_DIR}/limbcast-client.mri VERBATIM)
 add_custom_target(limbcast_client_archive ALL DEPENDS ${PROJECT_BINARY_DIR}/liblimbcast-client.a)
 
-set(LIMBCAST_CLIENT_LIBRARIES fastcdr)
-set(LIMBCAST_CLIENT_PACKAGES "find_dependency(fastcdr)")
-set(LIMBCAST_CLIENT_FLAGS "-lfastcdr")
+set(LIMBCAST_CLIENT_LIBRARIES fastcdr OpenSSL::Crypto)
+set(LIMBCAST_CLIENT_PACKAGES "find_dependency(fastcdr)\nfind_dependency(OpenSSL)")
+set(LIMBCAST_CLIENT_FLAGS "-lfastcdr -lcrypto")
 if(LIMBCAST_CYCLONE)
   list(APPEND LIMBCAST_CLIENT_LIBRARIES CycloneDDS::ddsc)
   string(APPEND LIMBCAST_CLIENT_PACKAGES "\nfind_dependency(CycloneDDS)")

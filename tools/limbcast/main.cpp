@@ -10,6 +10,7 @@
 #include "tools/limbcast/evaluate_command.hpp"
 #include "tools/limbcast/export_command.hpp"
 #include "tools/limbcast/run_command.hpp"
+#include "tools/limbcast/security_command.hpp"
 #include "tools/limbcast/session_command.hpp"
 #include "tools/limbcast/smooth_command.hpp"
 #include "tools/limbcast/sub_command.hpp"
@@ -25,10 +26,12 @@ int main(int argc, char** argv) {
   line.app().require_subcommand(0, 1);  // none is said below, in our words
   line.app().fallthrough();
   const std::array commands = {
-      tool::AddDemoCommand(line),      tool::AddTopCommand(line),      tool::AddRunCommand(line),
-      tool::AddEchoCommand(line),      tool::AddEvaluateCommand(line), tool::AddSmoothCommand(line),
-      tool::AddCalibrateCommand(line), tool::AddCoilCommand(line),     tool::AddExportCommand(line),
-      tool::AddBenchCommand(line),     tool::AddSessionCommand(line),
+      tool::AddDemoCommand(line),      tool::AddTopCommand(line),
+      tool::AddRunCommand(line),       tool::AddEchoCommand(line),
+      tool::AddEvaluateCommand(line),  tool::AddSmoothCommand(line),
+      tool::AddCalibrateCommand(line), tool::AddCoilCommand(line),
+      tool::AddExportCommand(line),    tool::AddBenchCommand(line),
+      tool::AddSessionCommand(line),   tool::AddSecurityCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;

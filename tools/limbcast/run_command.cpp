@@ -48,7 +48,7 @@ int RunAll(const service::ServiceCommandLine& line, const RunOptions& options) {
     return line.Fail(file.error());
   }
   const auto config = ReadAllInOne(*file);
-  const auto bus_config = line.ReadBus(*file);
+  const auto bus_config = line.ReadBus(*file, "pipeline");
   if (const Status read = file->Finish(); !read) {
     return line.Fail(read.error());
   }

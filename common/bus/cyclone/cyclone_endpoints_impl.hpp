@@ -8,6 +8,7 @@
 #include "common/bus/cyclone/cyclone_endpoints.hpp"
 #include "common/bus/cyclone/cyclone_reader.hpp"
 #include "common/bus/cyclone/cyclone_writer.hpp"
+#include "common/bus/permission.hpp"
 
 namespace limbcast::bus::cyclone {
 
@@ -15,7 +16,7 @@ template <typename T>
 Result<std::unique_ptr<Writer<T>>> MakeCycloneWriter(CycloneParticipant& participant) {
   auto writer = std::make_unique<CycloneWriter<T>>(participant);
   if (Status opened = writer->Open(); !opened) {
-    return opened.error();
+    return ExplainRefusal(participant.config(), "publish", Topic<T>::kShortName, opened.error());
   }
   return std::unique_ptr<Writer<T>>(std::move(writer));
 }
@@ -25,7 +26,7 @@ Result<std::unique_ptr<Reader<T>>> MakeCycloneReader(CycloneParticipant& partici
                                                      ReaderHandler<T> handler) {
   auto reader = std::make_unique<CycloneReader<T>>(participant, std::move(handler));
   if (Status opened = reader->Open(); !opened) {
-    return opened.error();
+    return ExplainRefusal(participant.config(), "subscribe", Topic<T>::kShortName, opened.error());
   }
   return std::unique_ptr<Reader<T>>(std::move(reader));
 }

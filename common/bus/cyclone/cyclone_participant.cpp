@@ -8,6 +8,7 @@
 
 #include "common/bus/cyclone/cyclone_log.hpp"
 #include "common/bus/cyclone/cyclone_qos.hpp"
+#include "common/bus/cyclone/cyclone_security.hpp"
 #include "common/bus/cyclone/cyclone_sertype.hpp"
 
 namespace limbcast::bus::cyclone {
@@ -79,9 +80,16 @@ Status CycloneParticipant::Open() {
   const std::string where = "domain " + std::to_string(config_.domain_id);
   const Qos qos(dds_create_qos());
   dds_qset_entity_name(qos.get(), config_.participant_name.c_str());
+  if (Status secured = AddSecurity(config_, qos.get()); !secured) {
+    return secured;
+  }
   participant_ = dds_create_participant(config_.domain_id, qos.get(), nullptr);
   if (participant_ < 0) {
-    return CycloneError("participant of", where, participant_);
+    Error refused = CycloneError("participant of", where, participant_);
+    if (!config_.security_dir.empty()) {  // its code says only that it was security
+      refused.message += ": " + LastCycloneError();
+    }
+    return refused;
   }
   const Qos group = GroupQos(config_);
   publisher_ = dds_create_publisher(participant_, group.get(), nullptr);
@@ -198,6 +206,9 @@ std::string CycloneParticipant::Describe() const {
   }
   if (!config_.peers.empty()) {
     text += ", peers " + Joined(config_.peers);
+  }
+  if (!config_.security_dir.empty()) {
+    text += ", secured as " + config_.security_role;
   }
   return text + (config_.write_batching ? ", batching" : "");
 }

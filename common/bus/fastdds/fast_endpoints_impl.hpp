@@ -8,6 +8,7 @@
 #include "common/bus/fastdds/fast_endpoints.hpp"
 #include "common/bus/fastdds/fast_reader.hpp"
 #include "common/bus/fastdds/fast_writer.hpp"
+#include "common/bus/permission.hpp"
 
 namespace limbcast::bus::fastdds {
 
@@ -15,7 +16,7 @@ template <typename T>
 Result<std::unique_ptr<Writer<T>>> MakeFastWriter(FastParticipant& participant) {
   auto writer = std::make_unique<FastWriter<T>>(participant);
   if (Status opened = writer->Open(); !opened) {
-    return opened.error();
+    return ExplainRefusal(participant.config(), "publish", Topic<T>::kShortName, opened.error());
   }
   return std::unique_ptr<Writer<T>>(std::move(writer));
 }
@@ -25,7 +26,7 @@ Result<std::unique_ptr<Reader<T>>> MakeFastReader(FastParticipant& participant,
                                                   ReaderHandler<T> handler) {
   auto reader = std::make_unique<FastReader<T>>(participant, std::move(handler));
   if (Status opened = reader->Open(); !opened) {
-    return opened.error();
+    return ExplainRefusal(participant.config(), "subscribe", Topic<T>::kShortName, opened.error());
   }
   return std::unique_ptr<Reader<T>>(std::move(reader));
 }

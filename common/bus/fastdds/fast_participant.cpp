@@ -12,6 +12,7 @@
 
 #include "common/bus/fastdds/fast_log.hpp"
 #include "common/bus/fastdds/fast_network.hpp"
+#include "common/bus/fastdds/fast_security.hpp"
 
 namespace limbcast::bus::fastdds {
 namespace {
@@ -66,6 +67,9 @@ Status FastParticipant::Open() {
   }
   if (Status ports = CheckFreePorts(config_); !ports) {
     return ports;
+  }
+  if (Status secured = AddSecurity(config_, *qos); !secured) {
+    return secured;
   }
   qos->wire_protocol().participant_id = number_.value();
   participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
@@ -175,6 +179,9 @@ std::string FastParticipant::Describe() const {
   }
   for (std::size_t i = 0; i < config_.peers.size(); ++i) {
     text += (i == 0 ? ", peers " : ",") + config_.peers[i];
+  }
+  if (!config_.security_dir.empty()) {
+    text += ", secured as " + config_.security_role;
   }
   return text;
 }

@@ -45,6 +45,9 @@ std::vector<std::string> ArgumentsOf(Part part, const DemoOptions& options) {
   if (!options.bus.partition.empty()) {
     add({"--partition", options.bus.partition});
   }
+  if (!options.bus.security_dir.empty()) {
+    add({"--security", options.bus.security_dir});
+  }
   // One message for a body and tick instead of one for each sensor, and what else makes many small
   // samples cheap (numbers: tests/benchmark/system).
   if (VendorOf(options.dds, NameOf(part)) == "cyclone") {
