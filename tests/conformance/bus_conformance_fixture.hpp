@@ -49,7 +49,7 @@ class BusConformance : public ::testing::TestWithParam<Pair> {
   [[nodiscard]] std::unique_ptr<Peer> OpenPeer(const PeerOptions& options = {}) {
     std::unique_ptr<Peer> peer;
     if (GetParam().two_processes) {
-      peer = std::make_unique<ProcessPeer>();
+      peer = std::make_unique<ProcessPeer>(LIMBCAST_BUS_PEER);
     } else {
       peer = std::make_unique<LocalPeer>();
     }

@@ -200,7 +200,7 @@ TEST_P(DdsConformance, RestartedWriterIsPickedUp) {
 class ProcessConformance : public BusConformance {
  protected:
   [[nodiscard]] std::unique_ptr<ProcessPeer> OpenProcess(const PeerOptions& options) {
-    auto peer = std::make_unique<ProcessPeer>();
+    auto peer = std::make_unique<ProcessPeer>(LIMBCAST_BUS_PEER);
     OpenIn(*peer, options);
     return peer;
   }

@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds kReplyWithin{30'000};
 
 }  // namespace
 
-ProcessPeer::ProcessPeer() {
+ProcessPeer::ProcessPeer(std::string path) {
   std::signal(SIGPIPE, SIG_IGN);  // a peer that is gone is an error reply, not our end
   std::array<int, 2> down{};
   std::array<int, 2> up{};
@@ -28,7 +28,6 @@ ProcessPeer::ProcessPeer() {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, down[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, up[1], STDOUT_FILENO);
-  std::string path = LIMBCAST_BUS_PEER;
   std::array<char*, 2> arguments = {path.data(), nullptr};
   const int failed = posix_spawn(&pid_, path.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -36,7 +35,7 @@ ProcessPeer::ProcessPeer() {
   close(up[1]);
   to_peer_ = down[1];
   from_peer_ = up[0];
-  Expects(failed == 0, "a bus_peer process");
+  Expects(failed == 0, "a peer process");
 }
 
 ProcessPeer::~ProcessPeer() { Reap(); }

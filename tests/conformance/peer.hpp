@@ -26,10 +26,11 @@ class LocalPeer final : public Peer {
   PeerSession session_;
 };
 
-/// A bus_peer process. Destroying it ends the process in good order.
+/// A process that answers lines, e.g. bus_peer: the executable `path`. Destroying it ends the
+/// process in good order.
 class ProcessPeer final : public Peer {
  public:
-  ProcessPeer();
+  explicit ProcessPeer(std::string path);
   ~ProcessPeer() override;
   ProcessPeer(const ProcessPeer&) = delete;
   ProcessPeer& operator=(const ProcessPeer&) = delete;
