@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <string_view>
+#include <utility>
 
 namespace limbcast::bus {
 namespace {
@@ -45,7 +46,7 @@ Status ValidateNames(const BusConfig& config) {
                       std::to_string(config.participant_name.size()) + " long");
   }
   if (config.network == NetworkProfile::kInterfaces && config.interfaces.empty()) {
-    return OutOfRange("network", "loopback, lan or names of interfaces", "\"\"");
+    return OutOfRange("network", "loopback, lan, wifi or names of interfaces", "\"\"");
   }
   for (const std::string& name : config.interfaces) {
     if (!IsPlainName(name)) {
@@ -99,13 +100,18 @@ Result<Vendor> ParseVendor(const std::string& text) {
 }
 
 Status ParseNetwork(const std::string& text, BusConfig& config) {
-  if (text == "loopback" || text == "lan") {
-    config.network = text == "lan" ? NetworkProfile::kLan : NetworkProfile::kLoopback;
-    config.interfaces.clear();
-    return Ok();
+  for (const auto& [name, profile] : {std::pair{"loopback", NetworkProfile::kLoopback},
+                                      {"lan", NetworkProfile::kLan},
+                                      {"wifi", NetworkProfile::kWifi}}) {
+    if (text == name) {
+      config.network = profile;
+      config.interfaces.clear();
+      return Ok();
+    }
   }
+  const bool is_wifi = text.starts_with("wifi:");
   std::vector<std::string> interfaces;
-  std::size_t start = 0;
+  std::size_t start = is_wifi ? 5 : (text.starts_with("lan:") ? 4 : 0);
   while (start <= text.size()) {
     const std::size_t comma = std::min(text.find(',', start), text.size());
     interfaces.push_back(Trimmed(std::string_view(text).substr(start, comma - start)));
@@ -113,10 +119,10 @@ Status ParseNetwork(const std::string& text, BusConfig& config) {
   }
   for (const std::string& name : interfaces) {
     if (!IsPlainName(name)) {
-      return OutOfRange("network", "loopback, lan or names of interfaces", '"' + text + '"');
+      return OutOfRange("network", "loopback, lan, wifi or names of interfaces", '"' + text + '"');
     }
   }
-  config.network = NetworkProfile::kInterfaces;
+  config.network = is_wifi ? NetworkProfile::kWifi : NetworkProfile::kInterfaces;
   config.interfaces = std::move(interfaces);
   return Ok();
 }

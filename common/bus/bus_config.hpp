@@ -14,7 +14,10 @@ enum class Vendor : std::uint8_t { kCyclone, kFast, kInproc };
 enum class NetworkProfile : std::uint8_t {
   kLoopback,    ///< this host only, no multicast: hermetic
   kLan,         ///< the interface the DDS library chooses, multicast discovery
-  kInterfaces,  ///< the interfaces named in `interfaces`
+  kInterfaces,  ///< lan on the interfaces named in `interfaces`
+  /// Samples never by multicast, which Wi-Fi sends at its slowest rate and does not repeat.
+  /// Participants are found by calling `peers`; only where there are none, by multicast.
+  kWifi,
 };
 
 /// Which network a process joins, and how.
@@ -30,7 +33,8 @@ struct BusConfig {
 
   NetworkProfile network = NetworkProfile::kLoopback;
 
-  /// Interface names or addresses for NetworkProfile::kInterfaces.
+  /// Interface names or addresses for kInterfaces, and for kWifi where the library is not to
+  /// choose.
   std::vector<std::string> interfaces;
 
   /// Unicast peers (addresses) beside what discovery finds.
@@ -66,8 +70,8 @@ struct BusConfig {
 
 /// "cyclone" | "fast" | "inproc".
 [[nodiscard]] Result<Vendor> ParseVendor(const std::string& text);
-/// "loopback" | "lan" | a comma-separated list of interface names or addresses (fills
-/// `interfaces`).
+/// "loopback" | "lan" | "wifi" | a comma-separated list of interface names or addresses (fills
+/// `interfaces`), also after "lan:" or "wifi:".
 [[nodiscard]] Status ParseNetwork(const std::string& text, BusConfig& config);
 
 }  // namespace limbcast::bus

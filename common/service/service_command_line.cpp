@@ -58,7 +58,7 @@ ServiceCommandLine::ServiceCommandLine(std::string program, std::string descript
   app().add_option("--domain", domain_id_, "DDS domain")->type_name("0-101");
   app().add_option("--partition", partition_, "DDS partition: the session to join");
   app().add_option("--network", network_,
-                   "loopback (default), lan, or interface names separated by commas");
+                   "loopback (default), lan, wifi, or interface names separated by commas");
   app()
       .add_option("--peer", peers_, "Address of a host to look for; may be given several times")
       ->allow_extra_args(false);

@@ -45,7 +45,7 @@ std::string InterfacesXml(const BusConfig& config) {
   if (config.network == NetworkProfile::kLoopback) {
     return "<Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>";
   }
-  if (config.network == NetworkProfile::kLan) {
+  if (config.interfaces.empty()) {
     return "";  // the library chooses
   }
   std::string xml = "<Interfaces>";
@@ -70,6 +70,11 @@ Registry& TheRegistry() {
 
 std::string DomainXml(const BusConfig& config) {
   const bool loopback = config.network == NetworkProfile::kLoopback;
+  // "spdp": participants are announced by multicast, nothing else is.
+  const char* multicast = loopback ? "false" : "true";
+  if (config.network == NetworkProfile::kWifi) {
+    multicast = config.peers.empty() ? "spdp" : "false";
+  }
   std::string peers;
   if (loopback) {
     peers += PeersXml(config, "127.0.0.1", kCalledOnThisHost);
@@ -81,7 +86,7 @@ std::string DomainXml(const BusConfig& config) {
     peers = "<Peers>" + peers + "</Peers>";
   }
   return "<CycloneDDS><Domain Id=\"any\"><General>" + InterfacesXml(config) + "<AllowMulticast>" +
-         (loopback ? "false" : "true") +
+         multicast +
          "</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
          "<MaxAutoParticipantIndex>" +
          std::to_string(kMaxParticipantIndex) + "</MaxAutoParticipantIndex><SPDPInterval>" +

@@ -10,19 +10,12 @@
 #include "common/bus/cyclone/cyclone_qos.hpp"
 #include "common/bus/cyclone/cyclone_security.hpp"
 #include "common/bus/cyclone/cyclone_sertype.hpp"
+#include "common/bus/network_interfaces.hpp"
 
 namespace limbcast::bus::cyclone {
 namespace {
 
 constexpr std::string_view kTopicPrefix = "limbcast/";
-
-std::string Joined(const std::vector<std::string>& texts) {
-  std::string joined;
-  for (const std::string& text : texts) {
-    joined += (joined.empty() ? "" : ",") + text;
-  }
-  return joined;
-}
 
 }  // namespace
 
@@ -192,21 +185,7 @@ void CycloneParticipant::ReadEndpoints(dds_entity_t reader) {
 std::string CycloneParticipant::Describe() const {
   std::string text = std::string("Cyclone DDS ") + DDS_VERSION + ", domain " +
                      std::to_string(config_.domain_id) + ", partition \"" + config_.partition +
-                     "\", ";
-  switch (config_.network) {
-    case NetworkProfile::kLoopback:
-      text += "loopback only";
-      break;
-    case NetworkProfile::kLan:
-      text += "lan";
-      break;
-    case NetworkProfile::kInterfaces:
-      text += "interfaces " + Joined(config_.interfaces);
-      break;
-  }
-  if (!config_.peers.empty()) {
-    text += ", peers " + Joined(config_.peers);
-  }
+                     "\", " + DescribeNetwork(config_, HostInterfaces());
   if (!config_.security_dir.empty()) {
     text += ", secured as " + config_.security_role;
   }

@@ -2,7 +2,6 @@
 
 #include <arpa/inet.h>
 #include <fastrtps/utils/IPLocator.h>
-#include <ifaddrs.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -16,6 +15,8 @@
 #include <random>
 #include <set>
 #include <utility>
+
+#include "common/bus/network_interfaces.hpp"
 
 namespace limbcast::bus::fastdds {
 namespace {
@@ -37,22 +38,6 @@ std::string Text(const sockaddr& generic) {
   char text[INET_ADDRSTRLEN] = {};
   inet_ntop(AF_INET, &address.sin_addr, text, sizeof(text));
   return text;
-}
-
-std::vector<std::pair<std::string, std::string>> NamesAndAddresses() {
-  std::vector<std::pair<std::string, std::string>> found;
-  ifaddrs* list = nullptr;
-  if (getifaddrs(&list) != 0) {
-    return found;
-  }
-  for (const ifaddrs* it = list; it != nullptr; it = it->ifa_next) {
-    if (it->ifa_addr == nullptr || it->ifa_addr->sa_family != AF_INET) {
-      continue;
-    }
-    found.emplace_back(it->ifa_name, Text(*it->ifa_addr));
-  }
-  freeifaddrs(list);
-  return found;
 }
 
 // The IPv4 address of a host name or address; empty when there is none.
@@ -103,20 +88,18 @@ Result<std::vector<std::string>> InterfaceAddresses(const BusConfig& config) {
   if (config.network == NetworkProfile::kLoopback) {
     return std::vector<std::string>{kLoopback};
   }
-  std::vector<std::string> addresses;
-  if (config.network == NetworkProfile::kLan) {
-    return addresses;
-  }
-  const auto known = NamesAndAddresses();
+  std::vector<std::string> addresses;  // stays empty without names
+  const std::vector<NetworkInterface> known = HostInterfaces();
   for (const std::string& wanted : config.interfaces) {
-    const auto it = std::find_if(known.begin(), known.end(), [&](const auto& name_and_address) {
-      return name_and_address.first == wanted || name_and_address.second == wanted;
-    });
+    const auto it =
+        std::find_if(known.begin(), known.end(), [&](const NetworkInterface& interface) {
+          return interface.name == wanted || interface.address == wanted;
+        });
     if (it == known.end()) {
       return Error{ErrorCode::kUnavailable,
                    "network interface '" + wanted + "' does not exist on this host or has no IPv4"};
     }
-    addresses.push_back(it->second);
+    addresses.push_back(it->address);
   }
   return addresses;
 }
@@ -138,7 +121,7 @@ Result<DomainParticipantQos> ParticipantQos(const BusConfig& config,
   const bool loopback = config.network == NetworkProfile::kLoopback;
   if (loopback) {
     AddPeer(qos, kLoopback);
-  } else if (!config.peers.empty()) {
+  } else if (!config.peers.empty() && config.network != NetworkProfile::kWifi) {
     AddPeer(qos, kDiscoveryGroup);  // a list of peers replaces the group unless it is in it
   }
   for (const std::string& peer : config.peers) {

@@ -13,6 +13,7 @@
 #include "common/bus/fastdds/fast_log.hpp"
 #include "common/bus/fastdds/fast_network.hpp"
 #include "common/bus/fastdds/fast_security.hpp"
+#include "common/bus/network_interfaces.hpp"
 
 namespace limbcast::bus::fastdds {
 namespace {
@@ -57,9 +58,6 @@ Status FastParticipant::Open() {
   const auto addresses = InterfaceAddresses(config_);
   if (!addresses) {
     return addresses.error();
-  }
-  for (const std::string& address : *addresses) {
-    addresses_ += (addresses_.empty() ? "" : ",") + address;
   }
   auto qos = ParticipantQos(config_, *addresses);
   if (!qos) {
@@ -171,15 +169,7 @@ std::string FastParticipant::Describe() const {
                      std::to_string(FASTRTPS_VERSION_MINOR) + "." +
                      std::to_string(FASTRTPS_VERSION_MICRO) + ", domain " +
                      std::to_string(config_.domain_id) + ", partition \"" + config_.partition +
-                     "\", ";
-  if (config_.network == NetworkProfile::kLoopback) {
-    text += "loopback only";
-  } else {
-    text += "interfaces " + (addresses_.empty() ? "all" : addresses_);
-  }
-  for (std::size_t i = 0; i < config_.peers.size(); ++i) {
-    text += (i == 0 ? ", peers " : ",") + config_.peers[i];
-  }
+                     "\", " + DescribeNetwork(config_, HostInterfaces());
   if (!config_.security_dir.empty()) {
     text += ", secured as " + config_.security_role;
   }

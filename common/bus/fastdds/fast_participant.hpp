@@ -64,7 +64,6 @@ class FastParticipant final : private eprosima::fastdds::dds::DomainParticipantL
   BusConfig config_;
   std::shared_ptr<EventSink> sink_;
   const ParticipantNumber number_;
-  std::string addresses_;  // in use, for Describe
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;

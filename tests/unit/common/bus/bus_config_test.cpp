@@ -43,7 +43,7 @@ TEST(BusConfigTest, WhatIsOutOfRangeIsNamedWithItsLimit) {
   EXPECT_EQ(Refusal({.participant_name = std::string(65, 'p')}),
             "bus.participant_name must be at most 64 characters, is 65 long");
   EXPECT_EQ(Refusal({.network = NetworkProfile::kInterfaces}),
-            "bus.network must be loopback, lan or names of interfaces, is \"\"");
+            "bus.network must be loopback, lan, wifi or names of interfaces, is \"\"");
 }
 
 TEST(BusConfigTest, TextThatWouldBreakOutOfTheMiddlewaresConfigurationIsRefused) {
@@ -70,17 +70,25 @@ TEST(BusConfigTest, NetworksAreParsedByNameOrList) {
   ASSERT_TRUE(ParseNetwork("lan", config));
   EXPECT_EQ(config.network, NetworkProfile::kLan);
   EXPECT_TRUE(config.interfaces.empty());
+  ASSERT_TRUE(ParseNetwork("wifi", config));
+  EXPECT_EQ(config.network, NetworkProfile::kWifi);
+  ASSERT_TRUE(ParseNetwork("wifi:wlan0", config));
+  EXPECT_EQ(config.network, NetworkProfile::kWifi);
+  EXPECT_EQ(config.interfaces, std::vector<std::string>{"wlan0"});
+  ASSERT_TRUE(ParseNetwork("lan:eth0,eth1", config));
+  EXPECT_EQ(config.network, NetworkProfile::kInterfaces);
+  EXPECT_EQ(config.interfaces, (std::vector<std::string>{"eth0", "eth1"}));
   ASSERT_TRUE(ParseNetwork("loopback", config));
   EXPECT_EQ(config.network, NetworkProfile::kLoopback);
 }
 
 TEST(BusConfigTest, AListWithAHoleIsRefusedAndChangesNothing) {
   BusConfig config;
-  for (const char* text : {"", "eth0,", ",eth0", "eth 0"}) {
+  for (const char* text : {"", "eth0,", ",eth0", "eth 0", "wifi:", "lan:,"}) {
     const Status parsed = ParseNetwork(text, config);
     ASSERT_FALSE(parsed) << text;
     EXPECT_EQ(parsed.error().message,
-              "bus.network must be loopback, lan or names of interfaces, is \"" +
+              "bus.network must be loopback, lan, wifi or names of interfaces, is \"" +
                   std::string(text) + '"');
   }
   EXPECT_EQ(config.network, NetworkProfile::kLoopback);

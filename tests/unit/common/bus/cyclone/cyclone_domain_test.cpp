@@ -45,6 +45,15 @@ TEST(CycloneDomainXmlTest, InterfacesAreGivenByNameOrAddress) {
       << xml;
 }
 
+TEST(CycloneDomainXmlTest, WifiSendsNoDataByMulticastAndAnnouncesByItOnlyWithoutPeers) {
+  BusConfig config{.network = NetworkProfile::kWifi, .interfaces = {"wlan0"}};
+  EXPECT_TRUE(Contains(DomainXml(config), "<AllowMulticast>spdp</AllowMulticast>"));
+  EXPECT_TRUE(Contains(DomainXml(config), "<NetworkInterface name=\"wlan0\"/>"));
+  config.peers = {"10.0.0.7"};
+  EXPECT_TRUE(Contains(DomainXml(config), "<AllowMulticast>false</AllowMulticast>"));
+  EXPECT_TRUE(Contains(DomainXml(config), "<Peer address=\"10.0.0.7:"));
+}
+
 TEST(CycloneDomainXmlTest, KeyHashesTravelBecauseFastDdsNeedsThemToDispose) {
   EXPECT_TRUE(Contains(DomainXml({}), "<GenerateKeyhash>true</GenerateKeyhash>"));
 }

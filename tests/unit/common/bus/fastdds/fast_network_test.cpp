@@ -66,6 +66,13 @@ TEST(FastNetworkTest, PeersOnALanAreCalledBesideTheDiscoveryGroup) {
             (std::vector<std::string>{"239.255.0.1", "127.0.0.3"}));
 }
 
+TEST(FastNetworkTest, PeersOnAWifiAreCalledWithoutTheDiscoveryGroup) {
+  BusConfig config;
+  config.network = NetworkProfile::kWifi;
+  config.peers = {"127.0.0.3"};
+  EXPECT_EQ(InitialPeers(*ParticipantQos(config, {})), std::vector<std::string>{"127.0.0.3"});
+}
+
 TEST(FastNetworkTest, APeerWithoutAnAddressIsNamed) {
   BusConfig config;
   config.peers = {"no.such.host.invalid"};
