@@ -6,6 +6,7 @@
 #include "tools/limbcast/calibrate_command.hpp"
 #include "tools/limbcast/coil_command.hpp"
 #include "tools/limbcast/demo_command.hpp"
+#include "tools/limbcast/doctor_command.hpp"
 #include "tools/limbcast/echo_command.hpp"
 #include "tools/limbcast/evaluate_command.hpp"
 #include "tools/limbcast/export_command.hpp"
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
       tool::AddCalibrateCommand(line), tool::AddCoilCommand(line),
       tool::AddExportCommand(line),    tool::AddBenchCommand(line),
       tool::AddSessionCommand(line),   tool::AddSecurityCommand(line),
+      tool::AddDoctorCommand(line),
   };
   if (const std::optional<int> status = line.Parse(argc, argv)) {
     return *status;
