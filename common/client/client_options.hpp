@@ -17,10 +17,12 @@ namespace limbcast::client {
 
 /// Which network to join, as whom, and how much to remember.
 struct ClientOptions {
-  std::string dds = "cyclone";       ///< "cyclone" | "fast" | "inproc"; both DDS hear each other
-  std::uint32_t domain_id = 42;      ///< range: [0, 101]
-  std::string partition{};           ///< without a session host; empty = the default one
-  std::string network = "loopback";  ///< "loopback" | "lan" | interface names, comma-separated
+  std::string dds = "cyclone";   ///< "cyclone" | "fast" | "inproc"; both DDS hear each other
+  std::uint32_t domain_id = 42;  ///< range: [0, 101]
+  std::string partition{};       ///< without a session host; empty = the default one
+  /// "loopback" | "lan" | "wifi" | interface names, comma-separated, also after "wifi:"
+  std::string network = "loopback";
+  std::vector<std::string> peers{};      ///< hosts to look for where multicast does not pass
   std::string name = "limbcast-client";  ///< in tools and logs; at most 64 characters
   std::size_t history = 64;              ///< skeletons kept for each body. Range: [2, 4096]
   Duration max_prediction = std::chrono::milliseconds(50);  ///< range: [0, 1 s]

@@ -39,6 +39,7 @@ Result<std::unique_ptr<bus::Bus>> OpenNetwork(const ClientOptions& options) {
   if (const Status network = bus::ParseNetwork(options.network, config); !network) {
     return network.error();
   }
+  config.peers = options.peers;
   config.security_dir = options.security_dir;
   config.security_role = SecurityRoleOf(options);
   return bus::Open(config);

@@ -5,6 +5,8 @@
 #include <spdlog/spdlog.h>
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace limbcast::service {
 namespace {
@@ -31,6 +33,7 @@ TEST(ServiceCommandLineTest, DefaultsAreThoseOfTheBusNamedAfterTheProgram) {
   EXPECT_EQ(bus->domain_id, 42U);
   EXPECT_EQ(bus->network, bus::NetworkProfile::kLoopback);
   EXPECT_EQ(bus->participant_name, "limbcast-x");
+  EXPECT_EQ(bus->security_dir, "");
 }
 
 TEST(ServiceCommandLineTest, ReadsEveryKeyOfTheBusTable) {
@@ -45,6 +48,8 @@ ownership_strength = 20
 stream_lease_s = 0.25
 stream_depth = 32
 write_batching = true
+security_dir = "credentials"
+security_role = "operator"
 )");
   const auto bus = BusOf(file);
   ASSERT_TRUE(bus.ok());
@@ -57,6 +62,8 @@ write_batching = true
   EXPECT_EQ(bus->ownership_strength, 20);
   EXPECT_EQ(bus->stream_lease, std::chrono::milliseconds(250));
   EXPECT_EQ(bus->stream_depth, 32);
+  EXPECT_EQ(bus->security_dir, "credentials");
+  EXPECT_EQ(bus->security_role, "operator");
   EXPECT_TRUE(bus->write_batching);
 }
 
@@ -70,6 +77,22 @@ TEST(ServiceCommandLineTest, TheCommandLineGoesOverTheFile) {
   EXPECT_EQ(bus->partition, "b");
   EXPECT_EQ(bus->network, bus::NetworkProfile::kLan);
   EXPECT_THAT(bus->peers, ElementsAre("10.0.0.1", "10.0.0.2"));
+}
+
+TEST(ServiceCommandLineTest, TheRoleIsThatOfTheProgramUnlessSaidOtherwise) {
+  const config::ConfigFile none;
+  const auto role_of = [&](const char* program, const std::string& role,
+                           std::vector<const char*> options) {
+    ServiceCommandLine command(program, "Does x.", "");
+    options.insert(options.begin(), {program, "--security", "credentials"});
+    EXPECT_EQ(command.Parse(static_cast<int>(options.size()), options.data()), std::nullopt);
+    const auto bus = command.ReadBus(none, role);
+    return bus.ok() ? bus->security_role : bus.error().message;
+  };
+  EXPECT_EQ(role_of("limbcast-fusion", "", {}), "fusion");
+  EXPECT_EQ(role_of("limbcast", "", {}), "operator");
+  EXPECT_EQ(role_of("limbcast", "pipeline", {}), "pipeline");
+  EXPECT_EQ(role_of("limbcast", "pipeline", {"--security-role", "spectator"}), "spectator");
 }
 
 TEST(ServiceCommandLineTest, RefusalsNameTheOptionOrTheKeyAndTheLimit) {
