@@ -69,6 +69,7 @@ void SetUniqueGuidPrefix(DomainParticipantQos& qos) {
 struct NumbersInUse {
   std::mutex mutex;
   std::set<std::int32_t> numbers;
+  std::int32_t made = 0;
 };
 NumbersInUse& TheNumbersInUse() {
   static auto* in_use = new NumbersInUse();  // NOLINT: buses may be static objects
@@ -170,9 +171,13 @@ Status CheckFreePorts(const BusConfig& config) {
                    " are in use"};
 }
 
-ParticipantNumber::ParticipantNumber() {
+ParticipantNumber::ParticipantNumber(bool secured) {
+  constexpr std::int32_t kSpread = 16;  // numbers that Cyclone DDS calls on other hosts
   NumbersInUse& in_use = TheNumbersInUse();
   const std::lock_guard lock(in_use.mutex);
+  if (secured) {
+    value_ = (getpid() % kSpread + in_use.made++) % kSpread;
+  }
   while (!in_use.numbers.insert(value_).second) {
     ++value_;
   }

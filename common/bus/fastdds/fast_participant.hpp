@@ -49,7 +49,9 @@ class FastParticipant final : private eprosima::fastdds::dds::DomainParticipantL
   };
 
   FastParticipant(const BusConfig& config, BusEventHandler on_event)
-      : config_(config), sink_(std::make_shared<EventSink>(std::move(on_event))) {}
+      : config_(config),
+        sink_(std::make_shared<EventSink>(std::move(on_event))),
+        number_(!config.security_dir.empty()) {}
   [[nodiscard]] Status Open();
 
   void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,

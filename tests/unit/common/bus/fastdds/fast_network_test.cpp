@@ -3,6 +3,8 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 
 namespace limbcast::bus::fastdds {
@@ -79,6 +81,15 @@ TEST(FastNetworkTest, APeerWithoutAnAddressIsNamed) {
   const auto qos = ParticipantQos(config, {"127.0.0.1"});
   ASSERT_FALSE(qos);
   EXPECT_NE(qos.error().message.find("no.such.host.invalid"), std::string::npos);
+}
+
+TEST(FastNetworkTest, OnASecuredNetworkThePortOfALeftParticipantStaysEmptyForAWhile) {
+  std::set<std::int32_t> numbers;
+  for (int i = 0; i < 16; ++i) {
+    const std::int32_t number = ParticipantNumber(true).value();
+    EXPECT_TRUE(numbers.insert(number).second) << number << " was used just before";
+    EXPECT_LT(number, 16) << "or Cyclone DDS on other hosts does not call it";
+  }
 }
 
 TEST(FastNetworkTest, ParticipantNumbersAreUsedAgainAndGuidPrefixesAreNot) {
