@@ -172,7 +172,7 @@ Status CheckFreePorts(const BusConfig& config) {
 }
 
 ParticipantNumber::ParticipantNumber(bool secured) {
-  constexpr std::int32_t kSpread = 16;  // numbers that Cyclone DDS calls on other hosts
+  constexpr auto kSpread = static_cast<std::int32_t>(kPeerPorts);
   NumbersInUse& in_use = TheNumbersInUse();
   const std::lock_guard lock(in_use.mutex);
   if (secured) {
