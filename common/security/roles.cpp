@@ -27,15 +27,18 @@ std::vector<RoleGrant> MakeRoles() {
 
   // Without a session host the gateway says who wears what; the simulator also tells the truth.
   const Names gateway_out = Sorted({sensing, member, {"roster", "truth"}, health});
-  const Names gateway_in =
-      Sorted({answers, {"roster", "session", "segment_state", "skeleton", "body_definition"}});
-  const Names fusion_out = Sorted({{"segment_state", "command_reply"}, health});
-  const Names fusion_in =
-      Sorted({sensing, {"roster", "session", "command", "body_definition", "segment_state"}});
+  const Names gateway_in = Sorted(
+      {answers,
+       {"roster", "session", "segment_frame", "segment_state", "skeleton", "body_definition"}});
+  const Names fusion_out = Sorted({{"segment_frame", "segment_state", "command_reply"}, health});
+  const Names fusion_in = Sorted(
+      {sensing,
+       {"roster", "session", "command", "body_definition", "segment_frame", "segment_state"}});
   const Names posture_out =
       Sorted({{"body_definition", "command_reply", "joint_angles", "skeleton"}, health});
-  const Names posture_in = Sorted({{"body_definition", "command", "position_fix", "roster",
-                                    "segment_state", "sensor_info", "session", "skeleton"}});
+  const Names posture_in =
+      Sorted({{"body_definition", "command", "position_fix", "roster", "segment_frame",
+               "segment_state", "sensor_info", "session", "skeleton"}});
   return {
       {"gateway", gateway_out, gateway_in},
       {"fusion", fusion_out, fusion_in},
@@ -57,8 +60,8 @@ const std::vector<std::string>& TopicNames() {
       new Names{// NOLINT: buses may be static objects
                 "body_definition", "coil_burst",   "command",      "command_reply", "health",
                 "join_reply",      "join_request", "joint_angles", "marg",          "marg_frame",
-                "marker",          "orientation",  "position_fix", "roster",        "segment_state",
-                "sensor_info",     "session",      "skeleton",     "truth"};
+                "marker",          "orientation",  "position_fix", "roster",        "segment_frame",
+                "segment_state",   "sensor_info",  "session",      "skeleton",      "truth"};
   return *names;
 }
 
