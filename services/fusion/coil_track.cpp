@@ -17,8 +17,8 @@ constexpr std::uint32_t kMagUseless =
 constexpr std::uint32_t kInertialMissing = sensing::kGyroMissing | sensing::kAccelMissing;
 constexpr std::uint32_t kInertialSaturated = sensing::kGyroSaturated | sensing::kAccelSaturated;
 
-filters::CoilHypotheses MakeValid(const filters::CoilInertialConfig& config) {
-  auto made = filters::CoilHypotheses::Make(config);
+filters::CoilBothSides MakeValid(const filters::CoilInertialConfig& config) {
+  auto made = filters::CoilBothSides::Make(config);
   Expects(made.ok(), "a validated coil filter");
   return *made;
 }

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "common/filters/position/coil_hypotheses.hpp"
+#include "common/filters/position/coil_both_sides.hpp"
 #include "common/sensing/marg_sample.hpp"
 #include "services/fusion/position_config.hpp"
 #include "services/fusion/segment_position.hpp"
@@ -30,11 +30,11 @@ class CoilTrack {
                                                       const sensing::MargSample& source,
                                                       const Eigen::Quaterniond& q_earth_source);
 
-  [[nodiscard]] const filters::CoilHypotheses& filter() const { return filter_; }
+  [[nodiscard]] const filters::CoilBothSides& filter() const { return filter_; }
 
  private:
   double current_a_;
-  filters::CoilHypotheses filter_;
+  filters::CoilBothSides filter_;
 };
 
 }  // namespace limbcast::fusion

@@ -27,6 +27,8 @@ class CoilBothSides {
 
   /// One of the two is left. Until then `filter()` may be at the mirror image of the truth.
   [[nodiscard]] bool decided() const { return decided_; }
+  /// On which side the sensor is is known, and the track is not lost.
+  [[nodiscard]] bool valid() const { return decided_ && filter().phase() == CoilPhase::kTracking; }
   /// The one that is ahead.
   [[nodiscard]] const CoilInertialFilter& filter() const { return upper_leads_ ? upper_ : lower_; }
 

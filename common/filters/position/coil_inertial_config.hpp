@@ -33,7 +33,7 @@ struct CoilInertialConfig {
   double background_period_s = 0.5;        ///< Range: [0, 10]
 
   /// Half of the emitter's axes in which the sensor is at a start (unit vector); without it the
-  /// filter begins at p or at −p, and somebody else has to find out (CoilHypotheses).
+  /// filter begins at p or at −p, and motion has to tell which (CoilBothSides).
   std::optional<Eigen::Vector3d> half_space;
   /// No start so close to the plane between the halves. Range: [0, 1.5]
   double half_space_boundary_rad = 0.35;

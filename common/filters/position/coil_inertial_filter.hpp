@@ -71,10 +71,6 @@ class CoilInertialFilter {
   /// From now on the side of a new track is that of the last one.
   void ForgetHalfSpace() { config_.half_space.reset(); }
 
-  /// The other of the two places that the pulses cannot tell apart, p and −p: turns position and
-  /// velocity over, with their covariance (design/position.md section 9).
-  void Mirror();
-
   /// Displaces the estimate without telling the covariance; for tests of recovery.
   void Disturb(const CoilVector& error) { state_ = Plus(state_, error); }
   /// Overwrites the covariance; for tests of recovery.

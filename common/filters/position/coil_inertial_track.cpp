@@ -47,8 +47,6 @@ void CoilInertialFilter::Acquire(const sensing::CoilFrame& frame, CoilUpdateRepo
   } else if (ever_tracked_) {
     const CollectedPulse& middle = collector_.pulses()[1];
     rule.predicted_emitter_m = middle.path.q_earth_emitter.conjugate() * middle.path.p_earth_m;
-  } else {
-    rule.predicted_emitter_m = Eigen::Vector3d::UnitZ();  // one of the two
   }
   if (ever_tracked_) {
     // The orientation runs on inertia; after three poses that do not fit anything may be.
@@ -157,15 +155,6 @@ void CoilInertialFilter::Resume(const sensing::CoilFrame& frame, const CoilMotio
     P_.block<3, 3>(Index::kSensorTheta, blocks[i]) = with_s.middleRows<3>(row).transpose();
   }
   EnterTracking(frame);
-}
-
-void CoilInertialFilter::Mirror() {
-  constexpr int kTurned = 6;  // p and v
-  constexpr int kOthers = Index::kAll - kTurned;
-  state_.p_earth_m = -state_.p_earth_m;
-  state_.v_earth_m_s = -state_.v_earth_m_s;
-  P_.block<kTurned, kOthers>(0, kTurned) *= -1.0;
-  P_.block<kOthers, kTurned>(kTurned, 0) *= -1.0;
 }
 
 void CoilInertialFilter::EnterTracking(const sensing::CoilFrame& frame) {

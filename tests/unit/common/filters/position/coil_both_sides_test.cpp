@@ -35,10 +35,14 @@ TEST(CoilBothSidesTest, MotionDecidesOnWhicheverSideTheSensorIs) {
     for (const Ticks& ticks : {upper, UpsideDown(upper)}) {
       auto sides = CoilBothSides::Make(CoilInertialConfig());
       ASSERT_TRUE(sides);
+      int on_the_wrong_side = 0;
       for (const simulation::CoilTick& tick : ticks) {
         sides->Update(tick.frame);
+        const Eigen::Vector3d p_m = sides->filter().state().p_emitter_sensor_m();
+        on_the_wrong_side += sides->valid() && p_m.dot(tick.p_emitter_sensor_m) < 0.0 ? 1 : 0;
       }
-      EXPECT_TRUE(sides->decided());
+      EXPECT_TRUE(sides->valid());
+      EXPECT_EQ(on_the_wrong_side, 0) << "what is called valid is not the mirror image";
       EXPECT_EQ(sides->filter().phase(), CoilPhase::kTracking);
       EXPECT_LT(Error_m(*sides, ticks.back()), 0.02);
     }
