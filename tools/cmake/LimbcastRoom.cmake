@@ -23,8 +23,8 @@ if(LIMBCAST_SANITIZE)
   target_link_options(limbcast_options INTERFACE -fsanitize=${LIMBCAST_SANITIZE})
 endif()
 
-# What tests do themselves is not what takes their time, and -O3 takes twice the time to compile.
-set(limbcast_test_optimization $<$<CONFIG:Release>:-O1>)
+# What tests and command lines do themselves is not what takes their time, and -O3 takes twice the time to compile.
+set(limbcast_light_optimization $<$<CONFIG:Release>:-O1>)
 
 # limbcast_room(common/base SOURCES a.cpp DEPS limbcast::math Eigen3::Eigen PRIVATE_DEPS x)
 # makes the static library limbcast_<last part> with the alias limbcast::<last part>.
@@ -42,11 +42,13 @@ function(limbcast_room path)
   add_library(limbcast::${name} ALIAS ${target})
 endfunction()
 
-# limbcast_executable(limbcast-fusion SOURCES main.cpp DEPS limbcast::fusion): lands in <build>/bin.
+# limbcast_executable(limbcast-fusion SOURCES main.cpp DEPS limbcast::fusion): lands in <build>/bin. Its sources are a
+# command line and little more.
 function(limbcast_executable name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE limbcast_options ${ARG_DEPS})
+  target_compile_options(${name} PRIVATE ${limbcast_light_optimization})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 endfunction()
 
@@ -60,7 +62,7 @@ function(limbcast_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE limbcast_options ${ARG_DEPS} limbcast_test_support
     GTest::gmock GTest::gtest GTest::gtest_main)
-  target_compile_options(${name} PRIVATE ${limbcast_test_optimization})
+  target_compile_options(${name} PRIVATE ${limbcast_light_optimization})
   limbcast_reuse_precompiled(${name} limbcast_precompiled_test)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   set(properties LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
