@@ -16,11 +16,18 @@ const std::map<std::string, DemoDds> kDdsNames = {
 
 }  // namespace
 
+void AddNetworkOfDemo(CLI::App& app, DemoArguments& arguments) {
+  app.add_option("--dds", arguments.dds, "cyclone (default), fast or mixed");
+  app.add_option("--json", arguments.options.json_path, "Write the result there as one JSON object")
+      ->type_name("FILE");
+  app.add_option("--bin", arguments.options.folder,
+                 "Where the executables are (default: beside this one)")
+      ->type_name("FOLDER");
+}
+
 void AddDemoOptions(CLI::App& app, DemoArguments& arguments) {
   DemoOptions& options = arguments.options;
-  app.add_option("--dds", arguments.dds, "cyclone (default), fast or mixed");
-  app.add_option("--json", options.json_path, "Write the result there as one JSON object")
-      ->type_name("FILE");
+  AddNetworkOfDemo(app, arguments);
   app.add_option("--service-set", options.service_settings,
                  "A setting for all three services, e.g. bus.write_batching=false")
       ->type_name("KEY=VALUE")
@@ -32,8 +39,6 @@ void AddDemoOptions(CLI::App& app, DemoArguments& arguments) {
                  "A setting for the fusion service, e.g. filter.name=ckf")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--bin", options.folder, "Where the executables are (default: beside this one)")
-      ->type_name("FOLDER");
 }
 
 Status Complete(service::ServiceCommandLine& line, DemoArguments& arguments) {

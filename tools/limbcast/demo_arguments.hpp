@@ -15,8 +15,10 @@ struct DemoArguments {
   std::string dds = "cyclone";
 };
 
-/// Adds --dds, --json, --service-set, --gateway-set, --fusion-set and --bin to `app`. `arguments`
-/// outlive it.
+/// Adds --dds, --json and --bin to `app`. `arguments` outlive it.
+void AddNetworkOfDemo(CLI::App& app, DemoArguments& arguments);
+
+/// Adds these and --service-set, --gateway-set and --fusion-set.
 void AddDemoOptions(CLI::App& app, DemoArguments& arguments);
 
 /// Fills what the command line left open: the network of the client, a domain of our own, the

@@ -96,7 +96,8 @@ void Count(int error, PeerProbe& probe) {
 }  // namespace
 
 PeerProbe ProbePeer(const std::string& peer, std::uint32_t domain, Duration patience) {
-  PeerProbe probe{.peer = peer};
+  PeerProbe probe;
+  probe.peer = peer;
   sockaddr_in address{};
   if (!Resolve(peer, address)) {
     return probe;
