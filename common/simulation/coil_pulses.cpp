@@ -5,25 +5,6 @@
 namespace limbcast::simulation {
 namespace {
 
-// Place in the train of pulses: pulse `number`, `since_s` after its first edge.
-struct Place {
-  int coil = 0;
-  double since_s = 0.0;
-};
-
-bool PlaceOf(const CoilPulseConfig& config, double t_s, Place& place) {
-  const double spacing_s = config.cycle_s / 3.0;
-  constexpr double kRounding_s = 1e-9;  // a sample exactly at an edge is after it
-  const double since_begin_s = t_s - config.begin_s + kRounding_s;
-  if (since_begin_s < 0.0) {
-    return false;
-  }
-  const double number = std::floor(since_begin_s / spacing_s);
-  place.coil = static_cast<int>(std::fmod(number, 3.0));
-  place.since_s = since_begin_s - number * spacing_s;
-  return true;
-}
-
 double Length_s(const CoilPulseConfig& config) {
   return config.bipolar ? 2.0 * config.plateau_s : config.plateau_s;
 }
@@ -58,43 +39,65 @@ CoilPulseConfig BipolarPulses() {
   return config;
 }
 
-sensing::CoilDrive StatedDrive(const CoilPulseConfig& config, double t_s) {
+CoilPulse PulseAt(const CoilPulseConfig& config, double t_s) {
+  const double spacing_s = config.cycle_s / 3.0;
+  constexpr double kRounding_s = 1e-9;  // a sample exactly at an edge is after it
+  const double since_begin_s = t_s - config.begin_s + kRounding_s;
+  if (since_begin_s < 0.0) {
+    return {};
+  }
+  const double number = std::floor(since_begin_s / spacing_s);
+  return {.coil = static_cast<int>(std::fmod(number, 3.0)),
+          .begin_s = t_s - (since_begin_s - number * spacing_s),
+          .current_a = config.current_a};
+}
+
+sensing::CoilDrive StatedDrive(const CoilPulseConfig& config, const CoilPulse& pulse, double t_s) {
   sensing::CoilDrive drive;
-  Place place;
-  if (!PlaceOf(config, t_s, place)) {
+  if (pulse.coil < 0) {
     return drive;
   }
+  const double since_s = t_s - pulse.begin_s;
   const double length_s = Length_s(config);
-  if (place.since_s >= length_s) {
-    drive.settled = place.since_s >= length_s + config.settling_s;
+  if (since_s >= length_s) {
+    drive.settled = since_s >= length_s + config.settling_s;
     return drive;
   }
-  const bool second = place.since_s >= config.plateau_s;
-  drive.coil = place.coil;
-  drive.current_a = second ? -config.current_a : config.current_a;
-  drive.settled = place.since_s - (second ? config.plateau_s : 0.0) >= config.settling_s;
+  const bool second = since_s >= config.plateau_s;
+  drive.coil = pulse.coil;
+  drive.current_a = second ? -pulse.current_a : pulse.current_a;
+  drive.settled = since_s - (second ? config.plateau_s : 0.0) >= config.settling_s;
   return drive;
 }
 
-CoilCurrent TrueCurrent(const CoilPulseConfig& config, double t_s) {
-  Place place;
-  if (!PlaceOf(config, t_s - config.clock_error_s, place)) {
+sensing::CoilDrive StatedDrive(const CoilPulseConfig& config, double t_s) {
+  return StatedDrive(config, PulseAt(config, t_s), t_s);
+}
+
+CoilCurrent TrueCurrent(const CoilPulseConfig& config, const CoilPulse& pulse, double t_s) {
+  if (pulse.coil < 0) {
     return {};
   }
   const auto decayed = [&](double since_s) {
     return config.time_constant_s > 0.0 ? std::exp(-since_s / config.time_constant_s) : 0.0;
   };
-  const double i = config.current_a;
+  const double i = pulse.current_a;
+  const double since_s = t_s - pulse.begin_s;
   const double length_s = Length_s(config);
   double current_a = 0.0;
-  if (place.since_s < config.plateau_s) {
-    current_a = i * (1.0 - decayed(place.since_s));
-  } else if (place.since_s < length_s) {
-    current_a = -i + 2.0 * i * decayed(place.since_s - config.plateau_s);
+  if (since_s < config.plateau_s) {
+    current_a = i * (1.0 - decayed(since_s));
+  } else if (since_s < length_s) {
+    current_a = -i + 2.0 * i * decayed(since_s - config.plateau_s);
   } else {
-    current_a = (config.bipolar ? -i : i) * decayed(place.since_s - length_s);
+    current_a = (config.bipolar ? -i : i) * decayed(since_s - length_s);
   }
-  return {place.coil, current_a};
+  return {pulse.coil, current_a};
+}
+
+CoilCurrent TrueCurrent(const CoilPulseConfig& config, double t_s) {
+  const double at_source_s = t_s - config.clock_error_s;
+  return TrueCurrent(config, PulseAt(config, at_source_s), at_source_s);
 }
 
 }  // namespace limbcast::simulation

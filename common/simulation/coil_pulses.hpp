@@ -22,8 +22,19 @@ struct CoilPulseConfig {
 [[nodiscard]] CoilPulseConfig ThesisPulses();
 [[nodiscard]] CoilPulseConfig BipolarPulses();
 
-/// What the source says that it does at `t_s`.
+/// One pulse, long past or not yet over.
+struct CoilPulse {
+  int coil = -1;  ///< −1: none yet
+  double begin_s = 0.0;
+  double current_a = 0.0;  ///< of the plateau
+};
+/// The newest of the train at `t_s`.
+[[nodiscard]] CoilPulse PulseAt(const CoilPulseConfig& config, double t_s);
+
+/// What the source says that it does at `t_s`; in the train, or `pulse` being its newest.
 [[nodiscard]] sensing::CoilDrive StatedDrive(const CoilPulseConfig& config, double t_s);
+[[nodiscard]] sensing::CoilDrive StatedDrive(const CoilPulseConfig& config, const CoilPulse& pulse,
+                                             double t_s);
 
 /// The current that flows at `t_s`, and in which coil:
 ///   i(t) = i₁ + (i₀ − i₁) exp(−(t − t_edge)/τ)
@@ -33,5 +44,8 @@ struct CoilCurrent {
   double current_a = 0.0;
 };
 [[nodiscard]] CoilCurrent TrueCurrent(const CoilPulseConfig& config, double t_s);
+/// The same by the source's clock, `pulse` being its newest.
+[[nodiscard]] CoilCurrent TrueCurrent(const CoilPulseConfig& config, const CoilPulse& pulse,
+                                      double t_s);
 
 }  // namespace limbcast::simulation

@@ -53,6 +53,12 @@ CoilStream::CoilStream(CoilStreamConfig config, std::uint64_t seed)
       emitter_model_(config_.errors, config_.rate_hz, Random(seed, "emitter")),
       p_begin_m_(config_.sensor(0.0).p_earth_local_m) {}
 
+void CoilStream::Pulse(int coil, double current_a) {
+  asked_ = {.coil = coil,
+            .begin_s = static_cast<double>(tick_) / config_.rate_hz,
+            .current_a = current_a};
+}
+
 CoilTick CoilStream::Next() {
   const double t_s = static_cast<double>(tick_++) / config_.rate_hz;
   const RigidMotion sensor = config_.sensor(t_s);
@@ -62,9 +68,13 @@ CoilTick CoilStream::Next() {
   const double L = config_.gradient_reach_m;
   const Eigen::Vector3d levelled_m = L * ((p_m - p_begin_m_) / L).array().sin().matrix();
   Eigen::Vector3d added_E = config_.gradient_tesla_m * levelled_m;
-  added_E += FieldOf(config_.source, TrueCurrent(config_.pulses, t_s), emitter, p_m);
+  const double at_source_s = t_s - config_.pulses.clock_error_s;
+  const CoilCurrent current = config_.on_demand ? TrueCurrent(config_.pulses, asked_, at_source_s)
+                                                : TrueCurrent(config_.pulses, t_s);
+  added_E += FieldOf(config_.source, current, emitter, p_m);
   CoilTick tick;
-  tick.frame.drive = StatedDrive(config_.pulses, t_s);
+  tick.frame.drive = config_.on_demand ? StatedDrive(config_.pulses, asked_, t_s)
+                                       : StatedDrive(config_.pulses, t_s);
   for (const ForeignSource& other : config_.foreign) {
     added_E += FieldOf(config_.source, TrueCurrent(other.pulses, t_s), other.motion(t_s), p_m);
     const sensing::CoilDrive drive = StatedDrive(other.pulses, t_s);

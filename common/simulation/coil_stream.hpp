@@ -26,6 +26,7 @@ struct ForeignSource {
 /// A source of coils, a sensor, and the world they are in.
 struct CoilStreamConfig {
   CoilPulseConfig pulses;
+  bool on_demand = false;  ///< no train: Pulse() says when and with which coil
   sensing::CoilSource source;
   MotionFunction sensor;         ///< the sensor's own axes and place
   MotionFunction emitter;        ///< the axes and centre of the coils
@@ -61,12 +62,16 @@ class CoilStream {
   /// The tick at k / rate_hz, k = 0, 1, ...
   [[nodiscard]] CoilTick Next();
 
+  /// On demand: a pulse begins at the next tick. The one before is over and has settled.
+  void Pulse(int coil, double current_a);
+
  private:
   CoilStreamConfig config_;
   MargModel sensor_model_;
   MargModel emitter_model_;
   Eigen::Vector3d p_begin_m_;
   std::int64_t tick_ = 0;
+  CoilPulse asked_;
 };
 
 /// The first `duration_s` of a CoilStream.

@@ -11,6 +11,7 @@
 
 #include "common/simulation/random.hpp"
 #include "services/gateway/drivers/replay/recording_reader.hpp"
+#include "tools/limbcast/evaluate/coil_adaptive.hpp"
 #include "tools/limbcast/evaluate/coil_endurance.hpp"
 #include "tools/limbcast/evaluate/coil_recording.hpp"
 #include "tools/limbcast/evaluate/coil_report.hpp"
@@ -27,6 +28,7 @@ struct CoilOptions {
   std::string data;
   double hours = 0.0;
   int runs = 0;
+  bool adaptive = false;
   std::string json;
 };
 
@@ -54,6 +56,21 @@ int EvaluateExperiments(const CoilOptions& options) {
   }
   fmt::print("{}", CoilTable(experiments, results));
   return Save(options, CoilJson(experiments, results, options.seed));
+}
+
+int EvaluatePulsing(const CoilOptions& options) {
+  std::vector<CoilExperiment> experiments = MakeCoilExperiments(options.seed);
+  experiments.push_back(MakeRestingExperiment());
+  std::vector<CoilAdaptiveResult> results;
+  for (const CoilNoise noise : kNoises) {
+    for (const CoilExperiment& experiment : experiments) {
+      if (experiment.name.find(options.only) != std::string::npos) {
+        results.push_back(EvaluateAdaptive(experiment, noise, options.seed));
+      }
+    }
+  }
+  fmt::print("{}", AdaptiveTable(results));
+  return Save(options, AdaptiveJson(results, options.seed));
 }
 
 int EvaluateRecordings(const CoilOptions& options) {
@@ -113,9 +130,13 @@ int EvaluateEndurance(const CoilOptions& options) {
 
 int EvaluateCoils(const CoilOptions& options) {
   const bool endurance = options.hours > 0.0 || options.runs > 0;
-  if (endurance && !options.data.empty()) {
-    return Refuse(kCommand, {ErrorCode::kInvalidArgument,
-                             "--data is for recordings, --hours and --runs are for simulations"});
+  if ((endurance || options.adaptive) && !options.data.empty()) {
+    return Refuse(kCommand,
+                  {ErrorCode::kInvalidArgument,
+                   "--data is for recordings, --hours, --runs and --adaptive are for simulations"});
+  }
+  if (options.adaptive) {
+    return EvaluatePulsing(options);
   }
   if (endurance) {
     return EvaluateEndurance(options);
@@ -134,7 +155,8 @@ SubCommand AddEvaluateCoil(CLI::App& evaluate) {
       "(--hours, --runs); magnetic only, fused forward, with a lag, smoothed.\nExamples:\n"
       "  limbcast evaluate coil --json /tmp/coil.json\n"
       "  limbcast evaluate coil --data ../shared/data/broad --only 16\n"
-      "  limbcast evaluate coil --hours 10 --runs 1000");
+      "  limbcast evaluate coil --hours 10 --runs 1000\n"
+      "  limbcast evaluate coil --adaptive");
   app->add_option("--seed", options->seed, "Seed of motions, errors and noise");
   app->add_option("--only", options->only,
                   "Only experiments or recordings whose name has this in it");
@@ -145,6 +167,8 @@ SubCommand AddEvaluateCoil(CLI::App& evaluate) {
   app->add_option("--runs", options->runs,
                   "Simulated subjects of 20 s each; track is taken away from half of them")
       ->check(CLI::Range(0, 1'000'000));
+  app->add_flag("--adaptive", options->adaptive,
+                "Pulses when the filter is uncertain, beside pulses in turn");
   app->add_option("--json", options->json, "File for the figures");
   return {.app = app, .run = [options] { return EvaluateCoils(*options); }};
 }

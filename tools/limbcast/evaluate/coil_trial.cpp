@@ -109,7 +109,8 @@ Eigen::Matrix3d DrawGradient_tesla_m(std::uint64_t seed) {
   return DrawGradient_tesla_m(random);
 }
 
-CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise, std::uint64_t seed) {
+simulation::CoilStreamConfig MakeCoilStream(const CoilExperiment& experiment, CoilNoise noise,
+                                            std::uint64_t seed) {
   simulation::CoilStreamConfig stream;
   stream.pulses = PulsesOf(noise);
   stream.sensor = experiment.sensor;
@@ -117,6 +118,24 @@ CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise, std::
   stream.emitter_inertial = experiment.emitter_inertial;
   stream.errors = simulation::CoilSensorErrors(SigmaOf_tesla(noise));
   stream.gradient_tesla_m = DrawGradient_tesla_m(seed);
+  return stream;
+}
+
+filters::CoilInertialConfig MakeCoilFilter(const CoilExperiment& experiment, CoilNoise noise) {
+  filters::CoilInertialConfig config;
+  config.sigma_mag_tesla = SigmaOf_tesla(noise);
+  config.half_space = experiment.half_space;
+  config.walk_background_tesla_rts = experiment.walk_background_tesla_rts;
+  // The inertial units of CoilSensorErrors; scale and misalignment are 0.2 % each.
+  config.inertial.sigma_accel_m_s2_rthz = 3e-3;
+  config.inertial.sigma_gyro_rad_s_rthz = 1e-3;
+  config.inertial.k_accel = 4e-3;
+  config.relative_field_error = 3e-3;
+  return config;
+}
+
+CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise, std::uint64_t seed) {
+  const simulation::CoilStreamConfig stream = MakeCoilStream(experiment, noise, seed);
   CoilTrial trial;
   trial.name = experiment.name;
   trial.noise = noise;
@@ -127,16 +146,8 @@ CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise, std::
     const double at_s = ToSeconds(tick.frame.measured_at.time_since_epoch());
     trial.scored.push_back(at_s >= kScoredFrom_s ? 1 : 0);
   }
-  filters::CoilInertialConfig& config = trial.config;
-  config.source = stream.source;
-  config.sigma_mag_tesla = SigmaOf_tesla(noise);
-  config.half_space = experiment.half_space;
-  config.walk_background_tesla_rts = experiment.walk_background_tesla_rts;
-  // The inertial units of CoilSensorErrors; scale and misalignment are 0.2 % each.
-  config.inertial.sigma_accel_m_s2_rthz = 3e-3;
-  config.inertial.sigma_gyro_rad_s_rthz = 1e-3;
-  config.inertial.k_accel = 4e-3;
-  config.relative_field_error = 3e-3;
+  trial.config = MakeCoilFilter(experiment, noise);
+  trial.config.source = stream.source;
   return trial;
 }
 

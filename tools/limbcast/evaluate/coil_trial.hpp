@@ -62,6 +62,12 @@ struct CoilTrial {
 /// no inertial displacement, compared in the middle of the second pulse.
 [[nodiscard]] CoilResult EvaluateTrial(const CoilTrial& trial);
 
+/// The experiment with the sensors of `noise` in a room with a gradient, and the filter for it.
+[[nodiscard]] simulation::CoilStreamConfig MakeCoilStream(const CoilExperiment& experiment,
+                                                          CoilNoise noise, std::uint64_t seed);
+[[nodiscard]] filters::CoilInertialConfig MakeCoilFilter(const CoilExperiment& experiment,
+                                                         CoilNoise noise);
+
 /// Simulates the experiment and evaluates it from 5 s on (2 s after the motion began).
 [[nodiscard]] CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise,
                                       std::uint64_t seed);

@@ -94,5 +94,26 @@ TEST(CoilStreamTest, SlotsOfAnotherSourceAreMasked) {
   }
 }
 
+TEST(CoilStreamTest, OnDemandAPulseBeginsWithTheNextTickAndIsThatOfTheTrain) {
+  CoilStreamConfig config = StillScene();
+  config.pulses.begin_s = 0.5;
+  config.pulses.cycle_s = 60.0;  // the first pulse of the train alone
+  const auto train = SimulateCoil(config, 1.0, 1);
+  config.on_demand = true;
+  CoilStream stream(config, 1);
+  int on = 0;
+  for (std::size_t k = 0; k < train.size(); ++k) {
+    if (k == 60) {
+      stream.Pulse(0, config.pulses.current_a);
+    }
+    const CoilTick tick = stream.Next();
+    EXPECT_EQ(tick.frame.drive.coil, train[k].frame.drive.coil) << k;
+    EXPECT_EQ(tick.frame.drive.settled, train[k].frame.drive.settled) << k;
+    EXPECT_LT((tick.frame.mag_tesla - train[k].frame.mag_tesla).norm(), 1e-9) << k;
+    on += tick.frame.drive.coil == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(on, 8) << "60 ms at 120 Hz";
+}
+
 }  // namespace
 }  // namespace limbcast::simulation
