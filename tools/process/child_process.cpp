@@ -84,6 +84,9 @@ std::vector<std::string> Environment(const std::vector<std::string>& added) {
   dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
+  // Files of this process are none of the child's: the DDS libraries open their sockets without
+  // O_CLOEXEC, and a child that keeps one keeps the port.
+  close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   if (options.working_directory.empty() || chdir(options.working_directory.c_str()) == 0) {
     execvpe(arguments[0], arguments, environment);
   }

@@ -23,9 +23,9 @@ struct Announcement {
 
 /// What a host does with packets to the first discovery ports of the domain.
 struct PeerProbe {
-  std::string peer;         ///< as configured
-  std::string address;      ///< empty: the name is unknown
-  std::string leaves_by;    ///< address of this host on the way to it; empty: there is no way
+  std::string peer{};       ///< as configured
+  std::string address{};    ///< empty: the name is unknown
+  std::string leaves_by{};  ///< address of this host on the way to it; empty: there is no way
   std::size_t refused = 0;  ///< ports on which nobody listens: its host says so
   std::size_t silent = 0;   ///< ports that somebody listens on, or a firewall hides
   std::size_t blocked = 0;  ///< a firewall says no, here or there
@@ -34,10 +34,10 @@ struct PeerProbe {
 /// One process that reports its health.
 struct ProcessFacts {
   std::uint64_t process_uid = 0;
-  std::string role;
-  std::string host;
+  std::string role{};
+  std::string host{};
   std::uint32_t pid = 0;
-  std::string last_error;
+  std::string last_error{};
   std::size_t reports = 0;
   /// The smallest of (received − reported): how far its clock is behind ours, at most. Negative:
   /// how far it is ahead, at least.
@@ -46,8 +46,8 @@ struct ProcessFacts {
 
 /// A sensor, by who it says it is and who sends it.
 struct SensorFacts {
-  std::string serial;                ///< empty: unknown
-  std::vector<std::string> wearers;  ///< people in the roster that wear it
+  std::string serial{};                ///< empty: unknown
+  std::vector<std::string> wearers{};  ///< people in the roster that wear it
   std::uint64_t samples = 0;
   std::uint64_t steps_back = 0;  ///< times that its sequence number fell
 };
@@ -55,8 +55,8 @@ struct SensorFacts {
 /// An endpoint of somebody that does not fit one of ours.
 struct Mismatch {
   bus::BusEventKind kind = bus::BusEventKind::kIncompatibleQos;
-  std::string topic;
-  std::string detail;
+  std::string topic{};
+  std::string detail{};
   auto operator<=>(const Mismatch&) const = default;
 };
 

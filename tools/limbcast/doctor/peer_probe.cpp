@@ -96,8 +96,7 @@ void Count(int error, PeerProbe& probe) {
 }  // namespace
 
 PeerProbe ProbePeer(const std::string& peer, std::uint32_t domain, Duration patience) {
-  PeerProbe probe;
-  probe.peer = peer;
+  PeerProbe probe{.peer = peer};
   sockaddr_in address{};
   if (!Resolve(peer, address)) {
     return probe;

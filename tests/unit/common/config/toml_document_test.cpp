@@ -54,9 +54,10 @@ TEST(TomlDocumentTest, WhatIsNotTomlIsRefusedWithItsLine) {
 
 TEST(TomlDocumentTest, LettersAboveAsciiAreForStringsAndComments) {
   for (const std::string text :
-       {"\xEF\xBB\xBFa = \"\u00fc\" # \u00e4\nb = 1\n", "a = '\u0447'\n\"\u0447\" = 1\nb = 1\n",
-        "a = \"\\\"\u0447\"\nb = 1 # \"\n", "a = \"\"\"\n\u0447 \"\" \u0447\n\"\"\"\nb = 1\n",
-        "a = '''\n\u0447\\\n'''\nb = 1\n"}) {
+       {"\xEF\xBB\xBF"
+        "a = \"\u00fc\" # \u00e4\nb = 1\n",
+        "a = '\u0447'\n\"\u0447\" = 1\nb = 1\n", "a = \"\\\"\u0447\"\nb = 1 # \"\n",
+        "a = \"\"\"\n\u0447 \"\" \u0447\n\"\"\"\nb = 1\n", "a = '''\n\u0447\\\n'''\nb = 1\n"}) {
     const auto parsed = ParseToml(text, "t.toml");
     ASSERT_TRUE(parsed.ok()) << text << parsed.error().message;
     EXPECT_EQ((*parsed)["b"].value_or(0), 1) << text;

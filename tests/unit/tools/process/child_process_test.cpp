@@ -1,9 +1,12 @@
 #include "tools/process/child_process.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <string>
 
 namespace limbcast::process {
 namespace {
@@ -34,6 +37,17 @@ TEST(ChildProcessTest, StartOfWhatIsNotThereNamesItAndTheReason) {
   ASSERT_FALSE(child.ok());
   EXPECT_EQ(child.error().code, ErrorCode::kNotFound);
   EXPECT_EQ(child.error().message, "cannot start /nowhere/limbcast: No such file or directory");
+}
+
+TEST(ChildProcessTest, FilesOfTheParentAreNoneOfTheChilds) {
+  const int fd = open("/dev/null", O_RDONLY);  // NOLINT(*-vararg): POSIX
+  ASSERT_GT(fd, STDERR_FILENO);
+  auto child = Shell("test ! -e /proc/self/fd/" + std::to_string(fd));
+  ASSERT_TRUE(child.ok());
+  const auto ended = child->Wait(20s);
+  close(fd);
+  ASSERT_TRUE(ended.has_value());
+  EXPECT_EQ(ended->status, 0);
 }
 
 TEST(ChildProcessTest, PollOfARunningChildIsNothing) {

@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 TEST(CoilAdaptiveTest, PlannedPulsesAreFewerAndBetterThanATrainAsSeldom) {
   const CoilAdaptiveResult result =
-      EvaluateAdaptive(MakeRestingExperiment(), CoilNoise::kModern, 5);
+      EvaluateAdaptive(MakeRestingExperiment(), CoilNoise::kThesis, 5);
   EXPECT_GT(result.planned.tracked, 0.95);
   EXPECT_LT(result.planned.duty, 0.36) << "the cap of the plan";
   EXPECT_NEAR(result.seldom.duty, result.planned.duty, 0.02);
