@@ -72,8 +72,8 @@ struct SimulatorConfig {
   /// fault}.
   FaultConfig faults;
 
-  SimulatedCoilsConfig coils;      ///< [simulator.coils]
-  SimulatedCamerasConfig cameras;  ///< [simulator.cameras]
+  SimulatedCoilsConfig coils{};      ///< [simulator.coils]
+  SimulatedCamerasConfig cameras{};  ///< [simulator.cameras]
 };
 
 /// Reads [simulator]; refusals are remembered in the section's file.
