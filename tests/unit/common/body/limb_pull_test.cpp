@@ -45,15 +45,22 @@ double Off_m(const BodyPose& pose, Segment segment) {
       .norm();
 }
 
+// How far the sensor on `segment` is from where it truly is, against the one on the pelvis.
+double SensorOff_m(const BodyPose& pose, Segment segment) {
+  const LimbPosition is = PositionIn(pose, segment, 1.0);
+  return (is.p_sensor_sensor_m - PositionIn(TruePose(), segment, 1.0).p_sensor_sensor_m).norm();
+}
+
 // The upper segment of the limb is measured `error_rad` wrong; the position is the true one.
-BodyPose Pulled(Segment upper, Segment lower, double error_rad, double sigma_m, bool* done) {
+BodyPose Pulled(Segment upper, Segment lower, double error_rad, double sigma_m, bool* done,
+                const LimbPullConfig& config = {}) {
   const BodyPose truth = TruePose();
   BodyPose pose = truth;
   pose.q_earth_segment[Index(upper)] =
       math::ExpSO3({0.0, error_rad, 0.0}) * pose.q_earth_segment[Index(upper)];
   const ForwardKinematics kinematics(Person());
   kinematics.Place(Eigen::Vector3d::Zero(), pose);
-  *done = PullLimb({}, PositionIn(truth, lower, sigma_m), {}, pose);
+  *done = PullLimb(config, PositionIn(truth, lower, sigma_m), {}, pose);
   kinematics.Place(Eigen::Vector3d::Zero(), pose);
   return pose;
 }
@@ -63,11 +70,14 @@ class LimbPullTest : public ::testing::TestWithParam<std::array<Segment, 3>> {};
 TEST_P(LimbPullTest, ACertainPositionBringsTheEndOfTheLimbBack) {
   const auto [upper, lower, end] = GetParam();
   bool done = false;
-  const double before_m = Off_m(Pulled(upper, lower, 0.08, 1e3, &done), end);
-  const double after_m = Off_m(Pulled(upper, lower, 0.08, 1e-3, &done), end);
+  const LimbPullConfig exact{.sigma_trunk_m = 1e-4};
+  const BodyPose before = Pulled(upper, lower, 0.08, 1e3, &done, exact);
+  const BodyPose after = Pulled(upper, lower, 0.08, 1e-4, &done, exact);
   EXPECT_TRUE(done);
-  EXPECT_GT(before_m, 0.02);
-  EXPECT_LT(after_m, 0.6 * before_m);
+  EXPECT_GT(SensorOff_m(before, lower), 0.02);
+  EXPECT_LT(SensorOff_m(after, lower), 0.05 * SensorOff_m(before, lower));
+  // Both segments turned, though only one of them was wrong: the end is nearer, not there.
+  EXPECT_LT(Off_m(after, end), 0.75 * Off_m(before, end));
 }
 
 TEST_P(LimbPullTest, AnUncertainPositionLeavesTheLimbAsItIs) {
