@@ -80,14 +80,14 @@ CLI::App* AddUsers(CLI::App& bench, BenchArguments& arguments) {
   UsersBenchOptions& options = arguments.options;
   CLI::App* users =
       bench.add_subcommand("users",
-                            "The largest number of simulated people (15 sensors, 100 Hz) without a "
-                            "lost sample, with the\n"
-                            "latency sensor to client in bounds; cost and memory of each person by "
-                            "process. Real processes\n"
-                            "on this host. Exit status 1: not even one person.\n"
-                            "Examples:\n"
-                            "  limbcast bench users --dds cyclone --json users.json\n"
-                            "  limbcast bench users --dds fast --people 5,10,20 --seconds 30");
+                           "The largest number of simulated people (15 sensors, 100 Hz) without a "
+                           "lost sample, with the\n"
+                           "latency sensor to client in bounds; cost and memory of each person by "
+                           "process. Real processes\n"
+                           "on this host. Exit status 1: not even one person.\n"
+                           "Examples:\n"
+                           "  limbcast bench users --dds cyclone --json users.json\n"
+                           "  limbcast bench users --dds fast --people 5,10,20 --seconds 30");
   users->add_option("--seconds", options.seconds, "Measured in each run")
       ->check(CLI::Range(1.0, 3600.0));
   users->add_option("--p99-ms", options.limits.p99_ms, "Limit of the 99th percentile")
@@ -113,18 +113,19 @@ SubCommand AddBenchCommand(service::ServiceCommandLine& line) {
   CLI::App* bench = line.app().add_subcommand("bench", "Measure what this host carries");
   bench->require_subcommand(1);
   const CLI::App* const users = AddUsers(*bench, *arguments);
-  AddChurn(*bench->add_subcommand(
-               "churn",
-               "People who join, leave and vanish at random and services that are killed at random; "
-               "every minute\n"
-               "everybody comes in and goes home, and what the processes then still hold is counted: "
-               "threads, open files,\n"
-               "memory, shared memory, bodies. Real processes on this host. Exit status 1: something "
-               "leaked or failed.\n"
-               "Examples:\n"
-               "  limbcast bench churn --dds mixed --minutes 10\n"
-               "  limbcast bench churn --people 8 --action-every 0.3 --json churn.json"),
-           *churn_arguments);
+  AddChurn(
+      *bench->add_subcommand(
+          "churn",
+          "People who join, leave and vanish at random and services that are killed at random; "
+          "every minute\n"
+          "everybody comes in and goes home, and what the processes then still hold is counted: "
+          "threads, open files,\n"
+          "memory, shared memory, bodies. Real processes on this host. Exit status 1: something "
+          "leaked or failed.\n"
+          "Examples:\n"
+          "  limbcast bench churn --dds mixed --minutes 10\n"
+          "  limbcast bench churn --people 8 --action-every 0.3 --json churn.json"),
+      *churn_arguments);
   return {.app = bench, .run = [&line, users, arguments, churn_arguments] {
             return users->parsed() ? RunBench(line, *arguments) : RunChurn(line, *churn_arguments);
           }};

@@ -102,7 +102,8 @@ class Churn {
     };
     if (name == "session") {
       add({"--set", "session.state_dir=" + state_dir_ + "/session", "--set", "session.lease_s=1",
-           "--set", "session.grace_s=2", "--set", fmt::format("session.sessions=[\"{}\"]", kSession)});
+           "--set", "session.grace_s=2", "--set",
+           fmt::format("session.sessions=[\"{}\"]", kSession)});
     } else {
       add({"--partition", kSession});
     }
@@ -141,8 +142,7 @@ class Churn {
     // One that was asked before it could listen dies of the asking.
     if (!ended.clean() && ended.signal != SIGTERM) {
       events_.failures.push_back(fmt::format("gateway of {}: status {}, signal {}: {}", person.name,
-                                             ended.status, ended.signal,
-                                             person.gateway->Errors()));
+                                             ended.status, ended.signal, person.gateway->Errors()));
     }
     person.gateway.reset();
     ++events_.left;

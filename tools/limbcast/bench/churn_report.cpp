@@ -63,9 +63,9 @@ std::string ChurnRow(const ChurnCount& first, const ChurnCount& now, const Churn
 
 nlohmann::json ChurnJson(const std::vector<ChurnCount>& counts, const ChurnEvents& events,
                          const ChurnLimits& limits) {
-  nlohmann::json report = {{"joined", events.joined},         {"left", events.left},
-                           {"vanished", events.vanished},     {"killed", events.killed},
-                           {"spectators", events.spectators}, {"failures", events.failures},
+  nlohmann::json report = {{"joined", events.joined},          {"left", events.left},
+                           {"vanished", events.vanished},      {"killed", events.killed},
+                           {"spectators", events.spectators},  {"failures", events.failures},
                            {"counts", nlohmann::json::array()}};
   bool ok = counts.size() > 1 && events.failures.empty();
   for (const ChurnCount& count : counts) {
