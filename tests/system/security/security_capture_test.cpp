@@ -31,7 +31,7 @@ std::map<std::string, std::string> Secrets() {
           {"a skeleton", Piece<body::Skeleton>(1)},
           {"a segment", Piece<body::SegmentState>(1)},
           {"a sample", Piece<sensing::MargSample>(1)},
-          {"who wears what", Piece<roster::RosterEntry>(1)}};
+          {"who wears what", Example<roster::RosterEntry>(kKey, 1).person}};
 }
 
 class SecurityCaptureTest : public ::testing::TestWithParam<const char*> {
@@ -76,6 +76,9 @@ class SecurityCaptureTest : public ::testing::TestWithParam<const char*> {
 TEST_P(SecurityCaptureTest, NoPoseAndNoNameOfATopicCanBeReadOnASecuredNetwork) {
   if (const auto may = LoopbackCapture::Start(0); !may) {
     GTEST_SKIP() << "needs the right to sniff (CAP_NET_RAW): " << may.error().message;
+  }
+  for (const auto& [name, secret] : Secrets()) {
+    EXPECT_GE(secret.size(), 12U) << name << ": as short a one may stand anywhere by chance";
   }
   const TemporaryFolder folder;
   MakeCredentials(folder / "ours");
