@@ -1,38 +1,22 @@
 #include "common/sensing/coil_slots.hpp"
 
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
 
+#include "common/base/range.hpp"
 #include "common/sensing/coil_field.hpp"
 
 namespace limbcast::sensing {
 
 Status Validate(const CoilSlotConfig& c) {
-  struct Range {
-    const char* name;
-    double value, low, high;
-  };
-  const std::array ranges = {
-      Range{"pulse_s", c.pulse_s, 1e-3, 1.0},
-      Range{"clock_error_s", c.clock_error_s, 0.0, 0.1},
-      Range{"tail_s", c.tail_s, 0.0, 0.1},
-      Range{"free_running_hz", c.free_running_hz, 0.0, 1e5},
-      Range{"background_s", c.background_s, 0.0, 1.0},
-      Range{"burst_rate_hz", c.burst_rate_hz, 0.01, 100.0},
-      Range{"moment_a_m2", c.moment_a_m2, 1e-3, 100.0},
-      Range{"harmless_tesla", c.harmless_tesla, 1e-12, 1e-6},
-  };
-  for (const Range& range : ranges) {
-    if (!(range.value >= range.low && range.value <= range.high)) {
-      return Error{ErrorCode::kInvalidArgument, std::string("coil slots: ") + range.name +
-                                                    " must be in [" + std::to_string(range.low) +
-                                                    ", " + std::to_string(range.high) + "], is " +
-                                                    std::to_string(range.value)};
-    }
-  }
-  return Ok();
+  return CheckRanges("coil slots: ", {{"pulse_s", c.pulse_s, 1e-3, 1.0},
+                                      {"clock_error_s", c.clock_error_s, 0.0, 0.1},
+                                      {"tail_s", c.tail_s, 0.0, 0.1},
+                                      {"free_running_hz", c.free_running_hz, 0.0, 1e5},
+                                      {"background_s", c.background_s, 0.0, 1.0},
+                                      {"burst_rate_hz", c.burst_rate_hz, 0.01, 100.0},
+                                      {"moment_a_m2", c.moment_a_m2, 1e-3, 100.0},
+                                      {"harmless_tesla", c.harmless_tesla, 1e-12, 1e-6}});
 }
 
 CoilSlotPlan PlanCoilSlots(const CoilSlotConfig& c) {

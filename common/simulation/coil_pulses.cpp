@@ -3,20 +3,17 @@
 #include <cmath>
 
 namespace limbcast::simulation {
-namespace {
 
-double Length_s(const CoilPulseConfig& config) {
+double PulseLength_s(const CoilPulseConfig& config) {
   return config.bipolar ? 2.0 * config.plateau_s : config.plateau_s;
 }
-
-}  // namespace
 
 Status Validate(const CoilPulseConfig& c) {
   const auto within = [](double x, double low, double high) { return x >= low && x <= high; };
   if (!within(c.cycle_s, 0.05, 60.0)) {
     return Error{ErrorCode::kInvalidArgument, "coil.cycle_s must be in [0.05, 60]"};
   }
-  if (!within(c.plateau_s, 0.01, 1.0) || Length_s(c) + c.settling_s > c.cycle_s / 3.0) {
+  if (!within(c.plateau_s, 0.01, 1.0) || PulseLength_s(c) + c.settling_s > c.cycle_s / 3.0) {
     return Error{ErrorCode::kInvalidArgument,
                  "coil.plateau_s must be in [0.01, 1] and the pulse must fit in cycle_s / 3"};
   }
@@ -58,7 +55,7 @@ sensing::CoilDrive StatedDrive(const CoilPulseConfig& config, const CoilPulse& p
     return drive;
   }
   const double since_s = t_s - pulse.begin_s;
-  const double length_s = Length_s(config);
+  const double length_s = PulseLength_s(config);
   if (since_s >= length_s) {
     drive.settled = since_s >= length_s + config.settling_s;
     return drive;
@@ -83,7 +80,7 @@ CoilCurrent TrueCurrent(const CoilPulseConfig& config, const CoilPulse& pulse, d
   };
   const double i = pulse.current_a;
   const double since_s = t_s - pulse.begin_s;
-  const double length_s = Length_s(config);
+  const double length_s = PulseLength_s(config);
   double current_a = 0.0;
   if (since_s < config.plateau_s) {
     current_a = i * (1.0 - decayed(since_s));

@@ -18,6 +18,9 @@ struct CoilPulseConfig {
 };
 [[nodiscard]] Status Validate(const CoilPulseConfig& config);
 
+/// How long a coil is on, both polarities.
+[[nodiscard]] double PulseLength_s(const CoilPulseConfig& config);
+
 /// The thesis' pulses (3 × 60 ms in 600 ms) and the ones of section 7 (17 ms + then 17 ms −).
 [[nodiscard]] CoilPulseConfig ThesisPulses();
 [[nodiscard]] CoilPulseConfig BipolarPulses();

@@ -6,12 +6,11 @@
 #include "common/math/rotation.hpp"
 
 namespace limbcast::simulation {
-namespace {
 
 // Notation: E earth, S sensor, M emitter.
 
-Eigen::Vector3d FieldOf(const sensing::CoilSource& source, const CoilCurrent& current,
-                        const RigidMotion& emitter, const Eigen::Vector3d& p_earth_m) {
+Eigen::Vector3d SourceField_tesla(const sensing::CoilSource& source, const CoilCurrent& current,
+                                  const RigidMotion& emitter, const Eigen::Vector3d& p_earth_m) {
   if (current.coil < 0 || current.current_a == 0.0) {
     return Eigen::Vector3d::Zero();
   }
@@ -20,8 +19,6 @@ Eigen::Vector3d FieldOf(const sensing::CoilSource& source, const CoilCurrent& cu
   return emitter.R_earth_local *
          sensing::CoilField(source, current.coil, current.current_a, p_M).field_tesla;
 }
-
-}  // namespace
 
 MargErrors CoilSensorErrors(double mag_noise_tesla) {
   MargErrors errors;
@@ -69,14 +66,16 @@ CoilTick CoilStream::Next() {
   const Eigen::Vector3d levelled_m = L * ((p_m - p_begin_m_) / L).array().sin().matrix();
   Eigen::Vector3d added_E = config_.gradient_tesla_m * levelled_m;
   const double at_source_s = t_s - config_.pulses.clock_error_s;
-  const CoilCurrent current = config_.on_demand ? TrueCurrent(config_.pulses, asked_, at_source_s)
-                                                : TrueCurrent(config_.pulses, t_s);
-  added_E += FieldOf(config_.source, current, emitter, p_m);
+  const auto newest_at = [&](double at_s) {
+    return config_.on_demand ? asked_ : PulseAt(config_.pulses, at_s);
+  };
+  const CoilCurrent current = TrueCurrent(config_.pulses, newest_at(at_source_s), at_source_s);
+  added_E += SourceField_tesla(config_.source, current, emitter, p_m);
   CoilTick tick;
-  tick.frame.drive = config_.on_demand ? StatedDrive(config_.pulses, asked_, t_s)
-                                       : StatedDrive(config_.pulses, t_s);
+  tick.frame.drive = StatedDrive(config_.pulses, newest_at(t_s), t_s);
   for (const ForeignSource& other : config_.foreign) {
-    added_E += FieldOf(config_.source, TrueCurrent(other.pulses, t_s), other.motion(t_s), p_m);
+    added_E +=
+        SourceField_tesla(config_.source, TrueCurrent(other.pulses, t_s), other.motion(t_s), p_m);
     const sensing::CoilDrive drive = StatedDrive(other.pulses, t_s);
     if (other.masked && (drive.coil >= 0 || !drive.settled)) {
       tick.frame.drive.settled = false;

@@ -52,6 +52,12 @@ struct CoilTick {
 /// magnetometer reading; range 150 µT.
 [[nodiscard]] MargErrors CoilSensorErrors(double mag_noise_tesla);
 
+/// Field of a source at a place, both in the earth frame:  R_EM i B_c(R_MEᵀ (p − p_M)).
+[[nodiscard]] Eigen::Vector3d SourceField_tesla(const sensing::CoilSource& source,
+                                                const CoilCurrent& current,
+                                                const RigidMotion& emitter,
+                                                const Eigen::Vector3d& p_earth_m);
+
 /// A recording without end, tick by tick. Readings are those of MargModel; the magnetometer feels
 ///   B = B_world(p) + G L sin((p − p_begin)/L) + Σ i_c(t) R_EM B_c(R_MEᵀ (p − p_M))
 /// Thread-compatible; a copy goes on by itself.

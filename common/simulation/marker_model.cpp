@@ -1,37 +1,21 @@
 #include "common/simulation/marker_model.hpp"
 
-#include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "common/base/expects.hpp"
+#include "common/base/range.hpp"
 
 namespace limbcast::simulation {
 
 Status Validate(const MarkerErrors& errors) {
-  struct Range {
-    const char* name;
-    double value, low, high;
-  };
-  const std::array ranges = {
-      Range{"sigma_m", errors.sigma_m, 0.0, 0.1},
-      Range{"gap_rate_hz", errors.gap_rate_hz, 0.0, 100.0},
-      Range{"gap_s", errors.gap_s, 0.0, 100.0},
-      Range{"ghost_rate", errors.ghost_rate, 0.0, 1.0},
-      Range{"ghost_distance_m", errors.ghost_distance_m, 1e-6, 10.0},
-      Range{"swap_rate_hz", errors.swap_rate_hz, 0.0, 100.0},
-      Range{"swap_s", errors.swap_s, 0.0, 100.0},
-  };
-  for (const Range& range : ranges) {
-    if (!(range.value >= range.low && range.value <= range.high)) {
-      return Error{ErrorCode::kInvalidArgument, std::string("markers: ") + range.name +
-                                                    " must be in [" + std::to_string(range.low) +
-                                                    ", " + std::to_string(range.high) + "], is " +
-                                                    std::to_string(range.value)};
-    }
-  }
-  return Ok();
+  return CheckRanges("markers: ", {{"sigma_m", errors.sigma_m, 0.0, 0.1},
+                                   {"gap_rate_hz", errors.gap_rate_hz, 0.0, 100.0},
+                                   {"gap_s", errors.gap_s, 0.0, 100.0},
+                                   {"ghost_rate", errors.ghost_rate, 0.0, 1.0},
+                                   {"ghost_distance_m", errors.ghost_distance_m, 1e-6, 10.0},
+                                   {"swap_rate_hz", errors.swap_rate_hz, 0.0, 100.0},
+                                   {"swap_s", errors.swap_s, 0.0, 100.0}});
 }
 
 MarkerModel::MarkerModel(const MarkerErrors& errors, std::size_t markers, const Random& random)

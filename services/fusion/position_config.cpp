@@ -5,28 +5,14 @@
 #include <algorithm>
 #include <string>
 
+#include "common/config/named_values.hpp"
+
 namespace limbcast::fusion {
 namespace {
 
 constexpr double kTeslaPerNanotesla = 1e-9;
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr std::size_t kMaxName = 64;
-
-std::vector<body::Segment> ReadSegments(const config::Section& section, std::string_view key,
-                                        std::vector<body::Segment> segments) {
-  if (!section.Has(key)) {
-    return segments;
-  }
-  segments.clear();
-  for (const std::string& name : section.Read(key, std::vector<std::string>())) {
-    if (const auto segment = body::ParseSegment(name)) {
-      segments.push_back(*segment);
-    } else {
-      section.Fail(key, fmt::format("must be segments like right_fore_arm, has '{}'", name));
-    }
-  }
-  return segments;
-}
 
 double ReadNanotesla(const config::Section& section, std::string_view key, double tesla, double min,
                      double max) {
@@ -68,7 +54,8 @@ PositionConfig ReadPositionConfig(const config::Section& fusion) {
       coils.Fail("source", fmt::format("must be a segment like pelvis, is '{}'", name));
     }
   }
-  config.coils.sensors = ReadSegments(coils, "sensors", config.coils.sensors);
+  config.coils.sensors = config::ReadNamedList(coils, "sensors", config.coils.sensors,
+                                               body::ParseSegment, "segments like right_fore_arm");
   config.coils.current_a = coils.Read("current_a", config.coils.current_a, 0.01, 20.0);
   filters::CoilInertialConfig& filter = config.coils.filter;
   filter.source.radius_m = coils.Read("radius_m", filter.source.radius_m, 0.005, 1.0);
@@ -81,7 +68,9 @@ PositionConfig ReadPositionConfig(const config::Section& fusion) {
       coils.Read("relative_field_error", filter.relative_field_error, 0.0, 0.2);
 
   const config::Section markers = fusion.Get("markers");
-  config.markers.segments = ReadSegments(markers, "segments", {});
+  config.markers.segments =
+      config::ReadNamedList(markers, "segments", config.markers.segments, body::ParseSegment,
+                            "segments like right_fore_arm");
   filters::OpticalInertialConfig& optical = config.markers.filter;
   optical.sigma_marker_m =
       kMetresPerMillimetre *

@@ -4,34 +4,21 @@
 #include <cmath>
 
 #include "common/base/expects.hpp"
+#include "common/base/range.hpp"
 
 namespace limbcast::gateway {
 
 namespace {
-
-Status CheckRange(const char* name, double value, double min, double max) {
-  if (value >= min && value <= max) {
-    return Ok();
-  }
-  return Error{ErrorCode::kInvalidArgument, std::string("clock_map.") + name + " must be in [" +
-                                                std::to_string(min) + ", " + std::to_string(max) +
-                                                "], is " + std::to_string(value)};
-}
 
 double Nanoseconds(Duration duration) { return static_cast<double>(duration.count()); }
 
 }  // namespace
 
 Status Validate(const ClockMapConfig& config) {
-  for (const Status& status : {CheckRange("window_s", config.window_s, 1.0, 600.0),
-                               CheckRange("thin_s", config.thin_s, 0.001, 1.0),
-                               CheckRange("max_skew", config.max_skew, 1e-9, 0.1),
-                               CheckRange("jump_s", config.jump_s, 0.01, 60.0)}) {
-    if (!status) {
-      return status;
-    }
-  }
-  return Ok();
+  return CheckRanges("clock_map.", {{"window_s", config.window_s, 1.0, 600.0},
+                                    {"thin_s", config.thin_s, 0.001, 1.0},
+                                    {"max_skew", config.max_skew, 1e-9, 0.1},
+                                    {"jump_s", config.jump_s, 0.01, 60.0}});
 }
 
 ClockMap::ClockMap(ClockMapConfig config) : config_(config) {

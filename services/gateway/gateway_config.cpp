@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "common/base/range.hpp"
+
 namespace limbcast::gateway {
 
 namespace {
@@ -39,15 +41,6 @@ Pace ReadPace(const config::Section& section, Pace pace) {
   return {.speed = speed, .as_fast = false};
 }
 
-Status CheckRange(const char* key, double value, double min, double max) {
-  if (value >= min && value <= max) {
-    return Ok();
-  }
-  return Error{ErrorCode::kInvalidArgument, std::string("gateway.") + key + " must be in [" +
-                                                std::to_string(min) + ", " + std::to_string(max) +
-                                                "], is " + std::to_string(value)};
-}
-
 }  // namespace
 
 GatewayConfig ReadGatewayConfig(const config::Section& section, GatewayConfig defaults) {
@@ -78,15 +71,14 @@ GatewayConfig ReadGatewayConfig(const config::Section& section, GatewayConfig de
 }
 
 Status Validate(const GatewayConfig& config) {
-  for (const Status& status :
-       {CheckRange("speed", config.pace.speed, kMinSpeed, kMaxSpeed),
-        CheckRange("wait_timeout_s", config.wait_timeout_s, 0.1, 3600.0),
-        CheckRange("window_ticks", static_cast<double>(config.window_ticks), 1.0, 1024.0),
-        CheckRange("answer_timeout_s", config.answer_timeout_s, 0.01, 60.0),
-        CheckRange("linger_s", config.linger_s, 0.0, 60.0)}) {
-    if (!status) {
-      return status;
-    }
+  const Status ranges = CheckRanges(
+      "gateway.", {{"speed", config.pace.speed, kMinSpeed, kMaxSpeed},
+                   {"wait_timeout_s", config.wait_timeout_s, 0.1, 3600.0},
+                   {"window_ticks", static_cast<double>(config.window_ticks), 1.0, 1024.0},
+                   {"answer_timeout_s", config.answer_timeout_s, 0.01, 60.0},
+                   {"linger_s", config.linger_s, 0.0, 60.0}});
+  if (!ranges) {
+    return ranges;
   }
   if (config.session.size() > kMaxNameLength) {
     return Error{ErrorCode::kInvalidArgument, "gateway.session must have at most 64 characters"};

@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <string>
 
+#include "common/base/range.hpp"
 #include "common/filters/position/coil_measurement.hpp"
 
 namespace limbcast::filters {
@@ -22,31 +22,18 @@ Eigen::Matrix3d Relative(const CoilCovariance& P) {
   return P.block<3, 3>(s, s) + P.block<3, 3>(m, m) - P.block<3, 3>(s, m) - P.block<3, 3>(m, s);
 }
 
-Status Within(const char* name, double value, double low, double high) {
-  if (value >= low && value <= high) {
-    return Ok();
-  }
-  return Error{ErrorCode::kInvalidArgument, std::string("coil planner: ") + name + " must be in [" +
-                                                std::to_string(low) + ", " + std::to_string(high) +
-                                                "], is " + std::to_string(value)};
-}
-
 }  // namespace
 
 Status Validate(const CoilPlannerConfig& c) {
-  for (const Status& valid :
-       {Within("sigma_p_m", c.sigma_p_m, 1e-4, 1.0),
-        Within("sigma_theta_rad", c.sigma_theta_rad, 1e-3, 1.0),
-        Within("pulse_s", c.pulse_s, 0.01, 1.0), Within("gap_s", c.gap_s, 0.01, 1.0),
-        Within("samples", c.samples, 1.0, 1000.0), Within("max_duty", c.max_duty, 0.01, 0.9),
-        Within("longest_pause_s", c.longest_pause_s, 0.1, 60.0),
-        Within("current_a", c.current_a, 1e-6, 20.0),
-        Within("mag_range_tesla", c.mag_range_tesla, 1e-9, 1.0)}) {
-    if (!valid) {
-      return valid;
-    }
-  }
-  return Ok();
+  return CheckRanges("coil planner: ", {{"sigma_p_m", c.sigma_p_m, 1e-4, 1.0},
+                                        {"sigma_theta_rad", c.sigma_theta_rad, 1e-3, 1.0},
+                                        {"pulse_s", c.pulse_s, 0.01, 1.0},
+                                        {"gap_s", c.gap_s, 0.01, 1.0},
+                                        {"samples", static_cast<double>(c.samples), 1.0, 1000.0},
+                                        {"max_duty", c.max_duty, 0.01, 0.9},
+                                        {"longest_pause_s", c.longest_pause_s, 0.1, 60.0},
+                                        {"current_a", c.current_a, 1e-6, 20.0},
+                                        {"mag_range_tesla", c.mag_range_tesla, 1e-9, 1.0}});
 }
 
 Result<CoilPulsePlanner> CoilPulsePlanner::Make(const CoilPlannerConfig& config,

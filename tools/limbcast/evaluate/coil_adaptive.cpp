@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -13,24 +12,19 @@
 #include "common/base/expects.hpp"
 #include "common/filters/position/coil_inertial_filter.hpp"
 #include "common/filters/position/coil_pulse_planner.hpp"
-#include "common/math/rotation.hpp"
 #include "common/simulation/smooth_step.hpp"
+#include "tools/limbcast/evaluate/coil_score.hpp"
 
 namespace limbcast::tool {
 namespace {
 
-constexpr double kScoredFrom_s = 5.0;
 constexpr double kMmPerM = 1e3;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-
-double Length_s(const simulation::CoilPulseConfig& pulses) {
-  return pulses.bipolar ? 2.0 * pulses.plateau_s : pulses.plateau_s;
-}
 
 filters::CoilPulsePlanner MakePlanner(const simulation::CoilStreamConfig& stream,
                                       const filters::CoilInertialConfig& filter) {
   filters::CoilPlannerConfig config;
-  config.pulse_s = Length_s(stream.pulses);
+  config.pulse_s = simulation::PulseLength_s(stream.pulses);
   // The useful part of each plateau.
   const double useful_s =
       (stream.pulses.bipolar ? 2.0 : 1.0) * (stream.pulses.plateau_s - stream.pulses.settling_s);
@@ -52,7 +46,7 @@ class Run {
     planner_ = MakePlanner(config, filter_config);
   }
 
-  CoilPulsing Score() {
+  CoilPulsing Evaluate() {
     const auto ticks = static_cast<std::size_t>(duration_s_ * config_.rate_hz);
     for (std::size_t k = 0; k < ticks; ++k) {
       const double t_s = static_cast<double>(k) / config_.rate_hz;
@@ -64,30 +58,26 @@ class Run {
       }
       const simulation::CoilTick tick = stream_.Next();
       filter_->Update(tick.frame);
-      if (t_s >= kScoredFrom_s) {
+      if (t_s >= kCoilScoredFrom_s) {
         Add(tick);
       }
     }
+    const CoilFigure figure = score_.Figure();
     const double n = std::max(1.0, scored_);
-    sum_.position_m = std::sqrt(sum_.position_m / std::max(1.0, sum_.tracked));
-    sum_.orientation_rad = std::sqrt(sum_.orientation_rad / std::max(1.0, sum_.tracked));
-    sum_.duty /= n;
-    sum_.tracked /= n;
-    return sum_;
+    return {.position_m = figure.position_m,
+            .orientation_rad = figure.orientation_rad,
+            .duty = on_ / n,
+            .tracked = figure.count / n};
   }
 
  private:
   void Add(const simulation::CoilTick& tick) {
     scored_ += 1.0;
-    sum_.duty += tick.frame.drive.coil >= 0 ? 1.0 : 0.0;
-    if (filter_->phase() != filters::CoilPhase::kTracking) {
-      return;
+    on_ += tick.frame.drive.coil >= 0 ? 1.0 : 0.0;
+    if (filter_->phase() == filters::CoilPhase::kTracking) {
+      const filters::CoilInertialState& state = filter_->state();
+      score_.Add(state.p_emitter_sensor_m(), state.q_sensor_emitter(), tick);
     }
-    const filters::CoilInertialState& state = filter_->state();
-    const double turn_rad = math::AngleBetween_rad(state.q_sensor_emitter(), tick.q_sensor_emitter);
-    sum_.tracked += 1.0;
-    sum_.position_m += (state.p_emitter_sensor_m() - tick.p_emitter_sensor_m).squaredNorm();
-    sum_.orientation_rad += turn_rad * turn_rad;
   }
 
   double duration_s_;
@@ -95,8 +85,9 @@ class Run {
   simulation::CoilStream stream_;
   std::unique_ptr<filters::CoilInertialFilter> filter_;
   std::optional<filters::CoilPulsePlanner> planner_;
-  CoilPulsing sum_;
-  double scored_ = 0.0;
+  CoilScore score_;
+  double scored_ = 0.0;  // ticks
+  double on_ = 0.0;      // of them with a coil on
 };
 
 nlohmann::json ToJson(const CoilPulsing& p) {
@@ -145,13 +136,14 @@ CoilAdaptiveResult EvaluateAdaptive(const CoilExperiment& experiment, CoilNoise 
   CoilAdaptiveResult result;
   result.experiment = experiment.name;
   result.noise = noise;
-  result.usual = Run(experiment, stream, filter, seed).Score();
+  result.usual = Run(experiment, stream, filter, seed).Evaluate();
   stream.on_demand = true;
-  result.planned = Run(experiment, stream, filter, seed).Score();
+  result.planned = Run(experiment, stream, filter, seed).Evaluate();
   stream.on_demand = false;
   stream.pulses.cycle_s =
-      std::clamp(3.0 * Length_s(stream.pulses) / result.planned.duty, stream.pulses.cycle_s, 60.0);
-  result.seldom = Run(experiment, stream, filter, seed).Score();
+      std::clamp(3.0 * simulation::PulseLength_s(stream.pulses) / result.planned.duty,
+                 stream.pulses.cycle_s, 60.0);
+  result.seldom = Run(experiment, stream, filter, seed).Evaluate();
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "tools/limbcast/evaluate/coil_trial.hpp"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "common/filters/position/coil_smoothing.hpp"
 #include "common/math/rotation.hpp"
 #include "common/simulation/random.hpp"
+#include "tools/limbcast/evaluate/coil_score.hpp"
 
 namespace limbcast::tool {
 namespace {
@@ -14,30 +16,6 @@ namespace {
 using simulation::CoilTick;
 
 constexpr double kLag_s = 0.6;
-constexpr double kScoredFrom_s = 5.0;
-
-class Score {
- public:
-  void Add(const Eigen::Vector3d& p_emitter_m, const Eigen::Quaterniond& q_sensor_emitter,
-           const CoilTick& truth) {
-    const double distance_m = p_emitter_m.norm() - truth.p_emitter_sensor_m.norm();
-    const double turn_rad = math::AngleBetween_rad(q_sensor_emitter, truth.q_sensor_emitter);
-    sum_.position_m += (p_emitter_m - truth.p_emitter_sensor_m).squaredNorm();
-    sum_.distance_m += distance_m * distance_m;
-    sum_.orientation_rad += turn_rad * turn_rad;
-    ++sum_.count;
-  }
-  [[nodiscard]] CoilFigure Figure() const {
-    CoilFigure figure = sum_;
-    for (double* value : {&figure.position_m, &figure.distance_m, &figure.orientation_rad}) {
-      *value = std::sqrt(*value / std::max(1, figure.count));
-    }
-    return figure;
-  }
-
- private:
-  CoilFigure sum_;
-};
 
 std::size_t TickAt(const CoilTrial& trial, Time at) {
   const double k = ToSeconds(at - trial.ticks.front().frame.measured_at) * trial.rate_hz;
@@ -50,7 +28,7 @@ CoilFigure MagneticOnly(const CoilTrial& trial) {
   const auto& ticks = trial.ticks;
   filters::CoilPulseCollector collector(trial.config.sigma_mag_tesla, kBackgroundAfter);
   filters::CoilPath path;
-  Score score;
+  CoilScore score;
   filters::HemisphereRule rule;
   rule.half_space = trial.config.half_space;
   rule.boundary_rad = 0.0;
@@ -144,7 +122,7 @@ CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise, std::
   trial.scored.reserve(trial.ticks.size());
   for (const CoilTick& tick : trial.ticks) {
     const double at_s = ToSeconds(tick.frame.measured_at.time_since_epoch());
-    trial.scored.push_back(at_s >= kScoredFrom_s ? 1 : 0);
+    trial.scored.push_back(at_s >= kCoilScoredFrom_s ? 1 : 0);
   }
   trial.config = MakeCoilFilter(experiment, noise);
   trial.config.source = stream.source;
@@ -156,8 +134,8 @@ CoilResult EvaluateTrial(const CoilTrial& trial) {
   Expects(filter.ok(), "a valid configuration");
   filters::CoilFixedLag fixed_lag(kLag_s, trial.rate_hz);
   filters::CoilIntervalSmoother smoother;
-  std::array<Score, kCoilMethodCount> scores;
-  const auto score = [&](CoilMethod method) -> Score& {
+  std::array<CoilScore, kCoilMethodCount> scores;
+  const auto score = [&](CoilMethod method) -> CoilScore& {
     return scores[static_cast<std::size_t>(method)];
   };
   CoilResult result;

@@ -8,22 +8,18 @@
 #include "common/filters/position/coil_inertial_config.hpp"
 #include "common/simulation/random.hpp"
 #include "tools/limbcast/evaluate/coil_experiments.hpp"
+#include "tools/limbcast/evaluate/coil_score.hpp"
 
 namespace limbcast::tool {
+
+/// Simulated experiments count from here on: 2 s after the motion began.
+inline constexpr double kCoilScoredFrom_s = 5.0;
 
 /// What is compared.
 enum class CoilMethod : std::uint8_t { kMagneticOnly, kForward, kFixedLag, kSmoothed };
 inline constexpr std::size_t kCoilMethodCount = 4;
 inline constexpr std::array<const char*, kCoilMethodCount> kCoilMethodNames = {
     "magnetic_only", "forward", "lag_0.6_s", "smoothed"};
-
-/// RMS errors of one method over one trial.
-struct CoilFigure {
-  int count = 0;
-  double position_m = 0.0;  ///< 3-D, emitter axes
-  double distance_m = 0.0;  ///< of |p|
-  double orientation_rad = 0.0;
-};
 
 /// The magnetometer and its pulses.
 enum class CoilNoise : std::uint8_t {

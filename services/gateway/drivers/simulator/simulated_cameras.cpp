@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "common/config/named_values.hpp"
+
 namespace limbcast::gateway {
 namespace {
 
@@ -12,16 +14,8 @@ constexpr double kMetresPerMillimetre = 1e-3;
 
 SimulatedCamerasConfig ReadSimulatedCameras(const config::Section& section,
                                             SimulatedCamerasConfig config) {
-  if (section.Has("markers")) {
-    config.markers.clear();
-    for (const std::string& name : section.Read("markers", std::vector<std::string>())) {
-      if (const auto segment = body::ParseSegment(name)) {
-        config.markers.push_back(*segment);
-      } else {
-        section.Fail("markers", "must be segments like pelvis, has '" + name + "'");
-      }
-    }
-  }
+  config.markers = config::ReadNamedList(section, "markers", config.markers, body::ParseSegment,
+                                         "segments like pelvis");
   config.rate_hz = section.Read("rate_hz", config.rate_hz, 1.0, 1000.0);
   config.lead_s = section.Read("lead_s", config.lead_s, -0.05, 0.05);
   const Eigen::Vector3d& r = config.p_sensor_marker_m;

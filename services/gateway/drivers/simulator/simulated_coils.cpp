@@ -1,8 +1,10 @@
 #include "services/gateway/drivers/simulator/simulated_coils.hpp"
 
-#include <array>
 #include <string>
 
+#include "common/base/range.hpp"
+#include "common/config/named_values.hpp"
+#include "common/simulation/coil_stream.hpp"
 #include "common/simulation/random.hpp"
 
 namespace limbcast::gateway {
@@ -23,16 +25,8 @@ SimulatedCoilsConfig ReadSimulatedCoils(const config::Section& section,
       section.Fail("source", "must be a segment like pelvis, is '" + name + "'");
     }
   }
-  if (section.Has("sensors")) {
-    config.sensors.clear();
-    for (const std::string& name : section.Read("sensors", std::vector<std::string>())) {
-      if (const auto segment = body::ParseSegment(name)) {
-        config.sensors.push_back(*segment);
-      } else {
-        section.Fail("sensors", "must be segments like right_fore_arm, has '" + name + "'");
-      }
-    }
-  }
+  config.sensors = config::ReadNamedList(section, "sensors", config.sensors, body::ParseSegment,
+                                         "segments like right_fore_arm");
   config.coils.radius_m = section.Read("radius_m", config.coils.radius_m, 0.005, 1.0);
   config.coils.turns = section.Read("turns", config.coils.turns, 1.0, 1e4);
   config.current_a = section.Read("current_a", config.current_a, 0.01, 20.0);
@@ -53,36 +47,27 @@ Status Validate(const SimulatedCoilsConfig& config) {
   if (!config.source) {
     return Ok();
   }
-  struct Range {
-    const char* name;
-    double value, low, high;
-  };
-  const std::array ranges = {
-      Range{"radius_m", config.coils.radius_m, 0.005, 1.0},
-      Range{"turns", config.coils.turns, 1.0, 1e4},
-      Range{"current_a", config.current_a, 0.01, 20.0},
-      Range{"slots", static_cast<double>(config.slots), 1.0, 100.0},
-      Range{"slot_s", config.slot_s, 0.02, 2.0},
-      Range{"clock_error_s", config.clock_error_s, 0.0, 0.05},
-      Range{"mag_noise_tesla", config.mag_noise_tesla, 0.0, 1e-6},
-  };
-  for (const Range& range : ranges) {
-    if (!(range.value >= range.low && range.value <= range.high)) {
-      return Error{ErrorCode::kInvalidArgument, std::string("simulator.coils.") + range.name +
-                                                    " must be in [" + std::to_string(range.low) +
-                                                    ", " + std::to_string(range.high) + "], is " +
-                                                    std::to_string(range.value)};
-    }
+  const Status ranges =
+      CheckRanges("simulator.coils.", {{"radius_m", config.coils.radius_m, 0.005, 1.0},
+                                       {"turns", config.coils.turns, 1.0, 1e4},
+                                       {"current_a", config.current_a, 0.01, 20.0},
+                                       {"slots", static_cast<double>(config.slots), 1.0, 100.0},
+                                       {"slot_s", config.slot_s, 0.02, 2.0},
+                                       {"clock_error_s", config.clock_error_s, 0.0, 0.05},
+                                       {"mag_noise_tesla", config.mag_noise_tesla, 0.0, 1e-6}});
+  if (!ranges) {
+    return ranges;
   }
-  const double busy_s = (config.bipolar ? 2.0 : 1.0) * config.plateau_s + config.settling_s +
-                        2.0 * config.clock_error_s;
+  const simulation::CoilPulseConfig pulses = PulsesOf(config, 0, 0);
+  const double busy_s =
+      simulation::PulseLength_s(pulses) + config.settling_s + 2.0 * config.clock_error_s;
   if (busy_s > config.slot_s) {
     return Error{ErrorCode::kInvalidArgument,
                  "simulator.coils.slot_s must hold pulse, settling and twice the clock error, " +
                      std::to_string(busy_s) + " s, is " + std::to_string(config.slot_s)};
   }
-  if (const Status pulses = simulation::Validate(PulsesOf(config, 0, 0)); !pulses) {
-    return Error{pulses.error().code, "simulator.coils: " + pulses.error().message};
+  if (const Status valid = simulation::Validate(pulses); !valid) {
+    return Error{valid.error().code, "simulator.coils: " + valid.error().message};
   }
   return Ok();
 }
@@ -113,14 +98,10 @@ simulation::TriadErrors CoilMagErrors(const SimulatedCoilsConfig& config) {
 
 Eigen::Vector3d FieldOf_tesla(const sensing::CoilSource& coils, const ActiveCoil& active,
                               const Eigen::Vector3d& p_earth_m) {
-  const Eigen::Vector3d p_E_m = p_earth_m - active.emitter.p_earth_local_m;
-  if (active.current.coil < 0 || active.current.current_a == 0.0 || p_E_m.norm() > kFarthest_m) {
+  if ((p_earth_m - active.emitter.p_earth_local_m).norm() > kFarthest_m) {
     return Eigen::Vector3d::Zero();
   }
-  return active.emitter.R_earth_local *
-         sensing::CoilField(coils, active.current.coil, active.current.current_a,
-                            active.emitter.R_earth_local.transpose() * p_E_m)
-             .field_tesla;
+  return simulation::SourceField_tesla(coils, active.current, active.emitter, p_earth_m);
 }
 
 }  // namespace limbcast::gateway

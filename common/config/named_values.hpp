@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/config/config_file.hpp"
+
+namespace limbcast::config {
+
+/// A list of names, each of which `parse` (text → std::optional<T>) knows. One that it does not
+/// know is refused: "must be <what>, has 'x'". `fallback` when the key is not there.
+template <typename T, typename Parse>
+[[nodiscard]] std::vector<T> ReadNamedList(const Section& section, std::string_view key,
+                                           std::vector<T> fallback, Parse parse,
+                                           std::string_view what) {
+  if (!section.Has(key)) {
+    return fallback;
+  }
+  std::vector<T> values;
+  for (const std::string& name : section.Read(key, std::vector<std::string>())) {
+    if (auto value = parse(name)) {
+      values.push_back(*std::move(value));
+    } else {
+      section.Fail(key, "must be " + std::string(what) + ", has '" + name + "'");
+    }
+  }
+  return values;
+}
+
+}  // namespace limbcast::config
