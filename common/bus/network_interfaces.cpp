@@ -3,7 +3,7 @@
 #include <arpa/inet.h>
 #include <ifaddrs.h>
 #include <net/if.h>
-#include <netinet/in.h>
+#include <netdb.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -30,6 +30,26 @@ std::string PeersText(const BusConfig& config) {
 
 }  // namespace
 
+std::string Ipv4Text(const in_addr& address) {
+  std::array<char, INET_ADDRSTRLEN> text{};
+  inet_ntop(AF_INET, &address, text.data(), text.size());
+  return text.data();
+}
+
+std::optional<in_addr> ResolveIpv4(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) {
+    return std::nullopt;
+  }
+  sockaddr_in address{};
+  std::memcpy(&address, found->ai_addr, sizeof address);
+  freeaddrinfo(found);
+  return address.sin_addr;
+}
+
 std::vector<NetworkInterface> HostInterfaces() {
   std::vector<NetworkInterface> found;
   ifaddrs* list = nullptr;
@@ -42,10 +62,8 @@ std::vector<NetworkInterface> HostInterfaces() {
     }
     sockaddr_in address{};
     std::memcpy(&address, it->ifa_addr, sizeof address);
-    std::array<char, INET_ADDRSTRLEN> text{};
-    inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size());
     found.push_back({.name = it->ifa_name,
-                     .address = text.data(),
+                     .address = Ipv4Text(address.sin_addr),
                      .up = (it->ifa_flags & IFF_UP) != 0 && (it->ifa_flags & IFF_RUNNING) != 0,
                      .loopback = (it->ifa_flags & IFF_LOOPBACK) != 0,
                      .multicast = (it->ifa_flags & IFF_MULTICAST) != 0});
@@ -58,10 +76,9 @@ std::vector<NetworkInterface> UsedInterfaces(const BusConfig& config,
                                              const std::vector<NetworkInterface>& host) {
   std::vector<NetworkInterface> used;
   for (const NetworkInterface& interface : host) {
-    const bool named = std::any_of(config.interfaces.begin(), config.interfaces.end(),
-                                   [&](const std::string& wanted) {
-                                     return wanted == interface.name || wanted == interface.address;
-                                   });
+    const bool named =
+        std::any_of(config.interfaces.begin(), config.interfaces.end(),
+                    [&](const std::string& wanted) { return interface.IsCalled(wanted); });
     const bool uses =
         config.network == NetworkProfile::kLoopback
             ? interface.loopback

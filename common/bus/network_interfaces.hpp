@@ -1,5 +1,8 @@
 #pragma once
 
+#include <netinet/in.h>
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +18,18 @@ struct NetworkInterface {
   bool loopback = false;
   bool multicast = false;
   bool operator==(const NetworkInterface&) const = default;
+
+  /// By its name or by its address.
+  [[nodiscard]] bool IsCalled(const std::string& wanted) const {
+    return name == wanted || address == wanted;
+  }
 };
+
+/// "10.0.0.5".
+[[nodiscard]] std::string Ipv4Text(const in_addr& address);
+
+/// The IPv4 address of a host name or address; nothing when there is none.
+[[nodiscard]] std::optional<in_addr> ResolveIpv4(const std::string& host);
 
 /// In the order of the system; empty when it refuses.
 [[nodiscard]] std::vector<NetworkInterface> HostInterfaces();

@@ -1,7 +1,6 @@
 #include "common/security/certificates.hpp"
 
 #include <openssl/asn1.h>
-#include <openssl/bio.h>
 #include <openssl/err.h>
 #include <openssl/evp.h>
 #include <openssl/pem.h>
@@ -12,17 +11,14 @@
 #include <chrono>
 #include <ctime>
 
+#include "common/security/memory_bio.hpp"
+
 namespace limbcast::security {
 namespace {
 
 constexpr unsigned kLowestOfFast = 0xF0;
 constexpr unsigned kLimitOfCyclone = 0x10;
 constexpr int kMaxTries = 10'000;  // one in 16 fits
-
-struct FreeBio {
-  void operator()(BIO* bio) const { BIO_free_all(bio); }
-};
-using Bio = std::unique_ptr<BIO, FreeBio>;
 
 struct FreeName {
   void operator()(X509_NAME* name) const { X509_NAME_free(name); }
@@ -32,16 +28,6 @@ using Name = std::unique_ptr<X509_NAME, FreeName>;
 Error Failed(const char* what) {
   return Error{ErrorCode::kUnavailable,
                std::string("OpenSSL cannot ") + what + ": " + OpenSslReason()};
-}
-
-std::string TextOf(BIO* bio) {
-  char* data = nullptr;
-  const long length = BIO_get_mem_data(bio, &data);
-  return length > 0 ? std::string(data, static_cast<std::size_t>(length)) : std::string();
-}
-
-Bio Reading(const std::string& text) {
-  return Bio(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
 }
 
 // OpenSSL's interfaces are older than const in some places; none of these change their argument.

@@ -38,11 +38,15 @@ Result<std::string> LoadSigned(const fs::path& file, const X509& authority) {
               : Result<std::string>(About(ErrorCode::kCorruptData, file, text.error().message));
 }
 
+Error Expired(const fs::path& file, const std::string& until, Time now) {
+  return About(ErrorCode::kInvalidArgument, file,
+               "has expired at " + until + " UTC, now is " + IsoText(now) +
+                   ": `limbcast security renew` makes new ones");
+}
+
 Status CheckDates(const fs::path& file, const Validity& validity, Time now) {
   if (now > validity.until) {
-    return About(ErrorCode::kInvalidArgument, file,
-                 "has expired at " + IsoText(validity.until) + " UTC, now is " + IsoText(now) +
-                     ": `limbcast security renew` makes new ones");
+    return Expired(file, IsoText(validity.until), now);
   }
   if (now < validity.from) {
     return About(ErrorCode::kInvalidArgument, file,
@@ -56,16 +60,6 @@ Status CheckDates(const fs::path& file, const X509& certificate, Time now) {
   const auto validity = ValidityOf(certificate);
   return validity ? CheckDates(file, *validity, now)
                   : Status(About(ErrorCode::kCorruptData, file, "has no readable dates"));
-}
-
-// The text between two tags; both documents that are looked at were written by PermissionsXml.
-std::string Element(const std::string& xml, const std::string& name) {
-  const std::string open = "<" + name + ">";
-  const std::size_t begin = xml.find(open);
-  const std::size_t end = xml.find("</" + name + ">");
-  return begin == std::string::npos || end == std::string::npos || end < begin
-             ? std::string()
-             : xml.substr(begin + open.size(), end - begin - open.size());
 }
 
 Status CheckIdentity(const CredentialFiles& files, const X509& identity, const X509& authority,
@@ -110,11 +104,9 @@ Status CheckPermissions(const CredentialFiles& files, const X509& identity, cons
                      SubjectOf(identity) + '"');
   }
   // Text of one format in UTC: compares as time does.
-  const std::string until = Element(*permissions, "not_after");
+  const std::string until = ElementOf(*permissions, "not_after");
   if (IsoText(now) > until) {
-    return About(ErrorCode::kInvalidArgument, files.permissions,
-                 "has expired at " + until + " UTC, now is " + IsoText(now) +
-                     ": `limbcast security renew` makes new ones");
+    return Expired(files.permissions, until, now);
   }
   return Ok();
 }

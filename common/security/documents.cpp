@@ -71,14 +71,17 @@ std::string PermissionsXml(const RoleGrant& grant, const std::string& subject,
          "</allow_rule>\n<default>DENY</default>\n</grant>\n</permissions>\n</dds>\n";
 }
 
+std::string ElementOf(const std::string& xml, const std::string& name) {
+  const std::string open = "<" + name + ">";
+  const std::size_t begin = xml.find(open);
+  const std::size_t end = xml.find("</" + name + ">");
+  return begin == std::string::npos || end == std::string::npos || end < begin + open.size()
+             ? std::string()
+             : xml.substr(begin + open.size(), end - begin - open.size());
+}
+
 std::string SubjectOf(const std::string& permissions_xml) {
-  constexpr std::string_view kOpen = "<subject_name>";
-  const std::size_t begin = permissions_xml.find(kOpen);
-  const std::size_t end = permissions_xml.find("</subject_name>");
-  if (begin == std::string::npos || end == std::string::npos || end < begin + kOpen.size()) {
-    return {};
-  }
-  return permissions_xml.substr(begin + kOpen.size(), end - begin - kOpen.size());
+  return ElementOf(permissions_xml, "subject_name");
 }
 
 }  // namespace limbcast::security

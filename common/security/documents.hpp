@@ -21,6 +21,9 @@ struct Validity {
 [[nodiscard]] std::string PermissionsXml(const RoleGrant& grant, const std::string& subject,
                                          const Validity& validity);
 
+/// The text of the first element `name` of a document of ours; empty when there is none.
+[[nodiscard]] std::string ElementOf(const std::string& xml, const std::string& name);
+
 /// The subject that a permissions document is for; empty when it names none.
 [[nodiscard]] std::string SubjectOf(const std::string& permissions_xml);
 

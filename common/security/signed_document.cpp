@@ -1,19 +1,16 @@
 #include "common/security/signed_document.hpp"
 
-#include <openssl/bio.h>
 #include <openssl/err.h>
 #include <openssl/pkcs7.h>
 #include <openssl/x509.h>
 
 #include <memory>
 
+#include "common/security/memory_bio.hpp"
+
 namespace limbcast::security {
 namespace {
 
-struct FreeBio {
-  void operator()(BIO* bio) const { BIO_free_all(bio); }
-};
-using Bio = std::unique_ptr<BIO, FreeBio>;
 struct FreePkcs7 {
   void operator()(PKCS7* signature) const { PKCS7_free(signature); }
 };
@@ -21,16 +18,6 @@ using Signature = std::unique_ptr<PKCS7, FreePkcs7>;
 struct FreeStack {
   void operator()(STACK_OF(X509) * stack) const { sk_X509_free(stack); }  // not what is in it
 };
-
-Bio Reading(const std::string& text) {
-  return Bio(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
-}
-
-std::string TextOf(BIO* bio) {
-  char* data = nullptr;
-  const long length = BIO_get_mem_data(bio, &data);
-  return length > 0 ? std::string(data, static_cast<std::size_t>(length)) : std::string();
-}
 
 }  // namespace
 

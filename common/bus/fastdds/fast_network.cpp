@@ -2,14 +2,12 @@
 
 #include <arpa/inet.h>
 #include <fastrtps/utils/IPLocator.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <mutex>
 #include <random>
@@ -31,28 +29,6 @@ constexpr std::uint32_t kSocketBuffer_bytes = 4 * 1024 * 1024;  // the kernel ca
 constexpr std::uint32_t kPeerPorts = 64;  // participants that one address may have
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // DDSI-RTPS 9.6.1.4
-
-std::string Text(const sockaddr& generic) {
-  sockaddr_in address{};
-  std::memcpy(&address, &generic, sizeof(address));
-  char text[INET_ADDRSTRLEN] = {};
-  inet_ntop(AF_INET, &address.sin_addr, text, sizeof(text));
-  return text;
-}
-
-// The IPv4 address of a host name or address; empty when there is none.
-std::string Resolve(const std::string& host) {
-  addrinfo hints{};
-  hints.ai_family = AF_INET;
-  hints.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) {
-    return {};
-  }
-  std::string text = Text(*found->ai_addr);
-  freeaddrinfo(found);
-  return text;
-}
 
 // Numbers are used again, so names must not be: a peer that has not yet heard of our last
 // participant's end would take the new one for it.
@@ -93,9 +69,8 @@ Result<std::vector<std::string>> InterfaceAddresses(const BusConfig& config) {
   const std::vector<NetworkInterface> known = HostInterfaces();
   for (const std::string& wanted : config.interfaces) {
     const auto it =
-        std::find_if(known.begin(), known.end(), [&](const NetworkInterface& interface) {
-          return interface.name == wanted || interface.address == wanted;
-        });
+        std::find_if(known.begin(), known.end(),
+                     [&](const NetworkInterface& interface) { return interface.IsCalled(wanted); });
     if (it == known.end()) {
       return Error{ErrorCode::kUnavailable,
                    "network interface '" + wanted + "' does not exist on this host or has no IPv4"};
@@ -126,11 +101,11 @@ Result<DomainParticipantQos> ParticipantQos(const BusConfig& config,
     AddPeer(qos, kDiscoveryGroup);  // a list of peers replaces the group unless it is in it
   }
   for (const std::string& peer : config.peers) {
-    const std::string address = Resolve(peer);
-    if (address.empty()) {
+    const auto address = ResolveIpv4(peer);
+    if (!address) {
       return Error{ErrorCode::kUnavailable, "bus.peers: no IPv4 address for '" + peer + "'"};
     }
-    AddPeer(qos, address);
+    AddPeer(qos, Ipv4Text(*address));
   }
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;

@@ -118,6 +118,24 @@ class Churn {
     return Ok();
   }
 
+  void NoteFailure(const std::string& who, const process::ExitState& ended,
+                   const process::ChildProcess& process) {
+    events_.failures.push_back(fmt::format("{}: status {}, signal {}: {}", who, ended.status,
+                                           ended.signal, process.Errors()));
+  }
+
+  // Starts it again at once.
+  void Restart(const std::string& service) {
+    if (const Status again = StartService(service); !again) {
+      events_.failures.push_back(again.error().message);
+    }
+  }
+
+  static void Kill(process::ChildProcess& process) {
+    process.Signal(SIGKILL);
+    (void)process.Stop(5s);
+  }
+
   void StartPerson(Person& person) {
     std::vector<std::string> arguments = Arguments("gateway");
     for (const std::string& setting :
@@ -141,8 +159,7 @@ class Churn {
     const process::ExitState ended = person.gateway->Stop(10s);
     // One that was asked before it could listen dies of the asking.
     if (!ended.clean() && ended.signal != SIGTERM) {
-      events_.failures.push_back(fmt::format("gateway of {}: status {}, signal {}: {}", person.name,
-                                             ended.status, ended.signal, person.gateway->Errors()));
+      NoteFailure("gateway of " + person.name, ended, *person.gateway);
     }
     person.gateway.reset();
     ++events_.left;
@@ -179,11 +196,8 @@ class Churn {
   void LookAfterProcesses() {
     for (auto& [name, service] : services_) {
       if (const auto ended = service.Poll()) {
-        events_.failures.push_back(fmt::format("{}: status {}, signal {}: {}", name, ended->status,
-                                               ended->signal, service.Errors()));
-        if (const Status again = StartService(name); !again) {
-          events_.failures.push_back(again.error().message);
-        }
+        NoteFailure(name, *ended, service);
+        Restart(name);
         return;
       }
     }
@@ -192,9 +206,7 @@ class Churn {
         continue;
       }
       if (const auto ended = person.gateway->Poll()) {
-        events_.failures.push_back(fmt::format("gateway of {}: status {}, signal {}: {}",
-                                               person.name, ended->status, ended->signal,
-                                               person.gateway->Errors()));
+        NoteFailure("gateway of " + person.name, *ended, *person.gateway);
         person.gateway.reset();
       }
     }
@@ -202,12 +214,9 @@ class Churn {
 
   void KillService() {
     const std::string name = kServices[std::uniform_int_distribution<std::size_t>(0, 2)(random_)];
-    services_.at(name).Signal(SIGKILL);
-    (void)services_.at(name).Stop(5s);
+    Kill(services_.at(name));
     ++events_.killed[name];
-    if (const Status again = StartService(name); !again) {
-      events_.failures.push_back(again.error().message);
-    }
+    Restart(name);
   }
 
   void MovePerson() {
@@ -216,8 +225,7 @@ class Churn {
     if (!person.gateway) {
       StartPerson(person);
     } else if (std::bernoulli_distribution(0.3)(random_)) {
-      person.gateway->Signal(SIGKILL);
-      (void)person.gateway->Stop(5s);
+      Kill(*person.gateway);
       person.gateway.reset();
       ++events_.vanished;
     } else {
@@ -310,6 +318,15 @@ class Churn {
     return took_s;
   }
 
+  void SendEverybodyHome() {
+    for (Person& person : people_) {
+      if (person.gateway) {
+        StopPerson(person);
+      }
+    }
+    guest_.reset();
+  }
+
   ChurnCount Take(double all_there_s) const {
     ChurnCount count;
     count.at_s = SecondsSince(begun_);
@@ -332,12 +349,7 @@ class Churn {
 
   void Count() {
     const double all_there_s = BringEverybody();
-    for (Person& person : people_) {
-      if (person.gateway) {
-        StopPerson(person);
-      }
-    }
-    guest_.reset();
+    SendEverybodyHome();
     // What is given back late is no leak; what is never given back is.
     (void)Eventually([&] {
       const ChurnCount now = Take(all_there_s);
@@ -350,18 +362,12 @@ class Churn {
   }
 
   void End() {
-    for (Person& person : people_) {
-      if (person.gateway) {
-        StopPerson(person);
-      }
-    }
-    guest_.reset();
+    SendEverybodyHome();
     watcher_.reset();
     for (auto& [name, service] : services_) {
       const process::ExitState ended = service.Stop(10s);
       if (!ended.clean()) {
-        events_.failures.push_back(fmt::format("{} at the end: status {}, signal {}: {}", name,
-                                               ended.status, ended.signal, service.Errors()));
+        NoteFailure(name + " at the end", ended, service);
       }
     }
   }

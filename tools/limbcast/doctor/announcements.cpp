@@ -70,9 +70,7 @@ std::vector<Announcement> AnnouncementListener::Heard() {
     }
     const auto library = LibraryOf({packet.data(), static_cast<std::size_t>(got)});
     if (library) {
-      std::array<char, INET_ADDRSTRLEN> text{};
-      inet_ntop(AF_INET, &from.sin_addr, text.data(), text.size());
-      heard_.insert({text.data(), *library});
+      heard_.insert({bus::Ipv4Text(from.sin_addr), *library});
     }
   }
   return {heard_.begin(), heard_.end()};

@@ -1,7 +1,5 @@
 #include "tools/limbcast/doctor/peer_probe.hpp"
 
-#include <arpa/inet.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -10,9 +8,10 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <utility>
 #include <vector>
+
+#include "common/bus/network_interfaces.hpp"
 
 namespace limbcast::tool {
 namespace {
@@ -54,25 +53,6 @@ class Socket {
   bool connected_ = false;
 };
 
-std::string TextOf(const in_addr& address) {
-  std::array<char, INET_ADDRSTRLEN> text{};
-  inet_ntop(AF_INET, &address, text.data(), text.size());
-  return text.data();
-}
-
-bool Resolve(const std::string& peer, sockaddr_in& address) {
-  addrinfo hints{};
-  hints.ai_family = AF_INET;
-  hints.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  if (getaddrinfo(peer.substr(0, peer.find(':')).c_str(), nullptr, &hints, &found) != 0) {
-    return false;
-  }
-  std::memcpy(&address, found->ai_addr, sizeof address);
-  freeaddrinfo(found);
-  return true;
-}
-
 std::string OwnAddress(const Socket& socket) {
   sockaddr_in own{};
   socklen_t size = sizeof own;
@@ -80,7 +60,7 @@ std::string OwnAddress(const Socket& socket) {
   if (getsockname(socket.fd(), reinterpret_cast<sockaddr*>(&own), &size) != 0) {
     return {};
   }
-  return TextOf(own.sin_addr);
+  return bus::Ipv4Text(own.sin_addr);
 }
 
 void Count(int error, PeerProbe& probe) {
@@ -97,11 +77,14 @@ void Count(int error, PeerProbe& probe) {
 
 PeerProbe ProbePeer(const std::string& peer, std::uint32_t domain, Duration patience) {
   PeerProbe probe{.peer = peer};
-  sockaddr_in address{};
-  if (!Resolve(peer, address)) {
+  const auto resolved = bus::ResolveIpv4(peer.substr(0, peer.find(':')));
+  if (!resolved) {
     return probe;
   }
-  probe.address = TextOf(address.sin_addr);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr = *resolved;
+  probe.address = bus::Ipv4Text(address.sin_addr);
   std::vector<Socket> sockets;
   for (std::uint32_t number = 0; number < kPorts; ++number) {
     address.sin_port = htons(static_cast<std::uint16_t>(7410 + 250 * domain + 2 * number));
