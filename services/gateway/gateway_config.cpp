@@ -71,7 +71,7 @@ GatewayConfig ReadGatewayConfig(const config::Section& section, GatewayConfig de
 }
 
 Status Validate(const GatewayConfig& config) {
-  const Status ranges = CheckRanges(
+  Status ranges = CheckRanges(
       "gateway.", {{"speed", config.pace.speed, kMinSpeed, kMaxSpeed},
                    {"wait_timeout_s", config.wait_timeout_s, 0.1, 3600.0},
                    {"window_ticks", static_cast<double>(config.window_ticks), 1.0, 1024.0},

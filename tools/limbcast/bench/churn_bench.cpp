@@ -180,7 +180,7 @@ class Churn {
       return Error{ErrorCode::kUnavailable, "no temporary folder can be made"};
     }
     for (const char* name : kServices) {
-      if (const Status started = StartService(name); !started) {
+      if (Status started = StartService(name); !started) {
         return started;
       }
     }

@@ -100,6 +100,7 @@ PeerProbe ProbePeer(const std::string& peer, std::uint32_t domain, Duration pati
     }
   }
   std::vector<pollfd> waiting;
+  waiting.reserve(sockets.size());
   for (const Socket& socket : sockets) {
     waiting.push_back({socket.fd(), 0, 0});
   }

@@ -47,7 +47,7 @@ Status Validate(const SimulatedCoilsConfig& config) {
   if (!config.source) {
     return Ok();
   }
-  const Status ranges =
+  Status ranges =
       CheckRanges("simulator.coils.", {{"radius_m", config.coils.radius_m, 0.005, 1.0},
                                        {"turns", config.coils.turns, 1.0, 1e4},
                                        {"current_a", config.current_a, 0.01, 20.0},
