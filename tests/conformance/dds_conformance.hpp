@@ -196,6 +196,36 @@ TEST_P(DdsConformance, RestartedWriterIsPickedUp) {
   EXPECT_TRUE(state.disposed().empty()) << "leaving is not disposing";
 }
 
+TEST_P(DdsConformance, SuccessorOfAWriterThatLeftDisposesOfItsInstancesAndWritesThem) {
+  const auto bus = OpenBus();
+  const auto check = [&]<typename T>(bus::TypeTag<T>) {
+    const std::string topic(bus::Topic<T>::kShortName);
+    Collector<T> collector;
+    const auto reader = Read(*bus, collector);
+    const auto peer = OpenPeer();
+    Connect(*peer, collector);
+    Write(*peer, topic, 1, 1, 1, 1);
+    ASSERT_TRUE(collector.WaitForSample(1, 1)) << topic;
+    const std::size_t before = events_.size();
+    Ok(*peer, "drop " + topic);
+    ASSERT_TRUE(events_.WaitFor(bus::BusEventKind::kUnmatched, topic, before)) << topic;
+
+    Connect(*peer, collector);
+    for (std::uint32_t round = 1; round <= 3; ++round) {
+      Ok(*peer, "dispose " + topic + " 1");
+      EXPECT_TRUE(collector.WaitUntil([&](const auto&, const auto& disposed) {
+        return disposed.size() >= round;
+      })) << topic;
+      Write(*peer, topic, 1, 1, 1 + round, 1);
+      EXPECT_TRUE(collector.WaitForSample(1, 1 + round)) << topic;
+    }
+    EXPECT_EQ(collector.disposed(), std::vector<std::uint32_t>(3, 1)) << topic;
+  };
+  check(bus::TypeTag<RosterEntry>{});
+  check(bus::TypeTag<MargSample>{});
+  check(bus::TypeTag<SegmentState>{});
+}
+
 /// Cases that need a process to kill; every pair has two processes.
 class ProcessConformance : public BusConformance {
  protected:

@@ -112,6 +112,7 @@ Result<CycloneTopic> CycloneParticipant::TopicOf(std::string_view name, std::str
     ddsi_sertype_unref(type);
     return CycloneError("topic", name, topic.entity);
   }
+  topic.type = type;
   std::string remote_type;
   {
     const std::scoped_lock lock(names_);

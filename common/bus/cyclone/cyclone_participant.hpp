@@ -31,6 +31,7 @@ class MalformedListeners {
 /// A topic of one participant.
 struct CycloneTopic {
   dds_entity_t entity = 0;
+  const ddsi_sertype* type = nullptr;  ///< lives as long as the topic
   std::shared_ptr<MalformedListeners> malformed;
 };
 

@@ -301,6 +301,13 @@ std::span<const char> Payload(const ddsi_serdata* data) {
   return {DataOf(data).bytes(), DataOf(data).size};
 }
 
+ddsi_serdata* MakeDisposal(const ddsi_sertype* type, const void* wire) {
+  ddsi_serdata* data = FromSample(type, SDK_KEY, wire);
+  data->statusinfo = NN_STATUSINFO_DISPOSE | NN_STATUSINFO_UNREGISTER;
+  data->timestamp.v = dds_time();
+  return data;
+}
+
 ddsi_serdata* MakeSerdata(const ddsi_sertype* type, ddsi_serdata_kind kind,
                           std::span<const char> bytes) {
   Serdata* data = NewSerdata(type, kind, bytes.size());

@@ -24,6 +24,10 @@ using MalformedHandler = std::function<void(const char* why)>;
 /// The encapsulated CDR of a sample of such a type; valid while the sample is referenced.
 [[nodiscard]] std::span<const char> Payload(const ddsi_serdata* data);
 
+/// What tells readers that the writer disposes of the instance with the key of `wire` and
+/// unregisters from it, in one message: for dds_forwardcdr, which takes it over.
+[[nodiscard]] ddsi_serdata* MakeDisposal(const ddsi_sertype* type, const void* wire);
+
 /// A sample of such a type from bytes as they might come from the network; nullptr when they are
 /// refused.
 [[nodiscard]] ddsi_serdata* MakeSerdata(const ddsi_sertype* type, ddsi_serdata_kind kind,

@@ -9,6 +9,7 @@
 #include "common/bus/cyclone/cyclone_listener.hpp"
 #include "common/bus/cyclone/cyclone_participant.hpp"
 #include "common/bus/cyclone/cyclone_qos.hpp"
+#include "common/bus/cyclone/cyclone_sertype.hpp"
 #include "common/bus/cyclone/wire_ops.hpp"
 #include "common/bus/endpoint_events.hpp"
 #include "common/bus/topics.hpp"
@@ -37,6 +38,7 @@ class CycloneWriter final : public Writer<T> {
     if (!topic) {
       return topic.error();
     }
+    type_ = topic->type;
     const Qos qos =
         WriterQos(Topic<T>::kProfile, Topic<T>::kExclusiveOwnership, participant_.config());
     const Listener listener = WriterListener(events_);
@@ -62,7 +64,10 @@ class CycloneWriter final : public Writer<T> {
   [[nodiscard]] Status Dispose(const T& key) override {
     const std::scoped_lock lock(mutex_);
     Codec<T>::EncodeKey(key, wire_);
-    const dds_return_t code = dds_dispose(writer_, &wire_);
+    // In one message: of two, a reader may miss the first, and then keeps the instance. Disposing
+    // alone ends processes that read with Fast DDS, see FastWriter.
+    const dds_return_t code = dds_forwardcdr(writer_, MakeDisposal(type_, &wire_));
+    written_.erase(Codec<T>::HashKey(wire_));
     Flush();  // rare, and not to wait for the next burst
     return code == DDS_RETCODE_OK ? Status() : CycloneError("dispose", Topic<T>::kName, code);
   }
@@ -90,6 +95,7 @@ class CycloneWriter final : public Writer<T> {
   std::mutex mutex_;  // guards the next two and keeps samples in the order of the calls
   typename Codec<T>::Wire wire_;
   std::set<KeyHash> written_;  // exclusive topics only
+  const ddsi_sertype* type_ = nullptr;
   dds_entity_t writer_ = 0;
 };
 

@@ -104,8 +104,9 @@ dds::DataWriterQos WriterQos(QosProfile profile, bool exclusive, const BusConfig
     qos.ownership_strength().value = static_cast<std::uint32_t>(config.ownership_strength);
   }
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
-  // Leaving must not dispose: values of state topics stay until somebody disposes them.
-  qos.writer_data_lifecycle().autodispose_unregistered_instances = false;
+  // FastWriter unregisters from an instance to dispose of it. Leaving does not: values of state
+  // topics stay until somebody disposes of them.
+  qos.writer_data_lifecycle().autodispose_unregistered_instances = true;
   auto& times = qos.reliable_writer_qos().times;
   times.heartbeatPeriod = ToFast(row.heartbeat_period);
   times.initialHeartbeatDelay = ToFast(milliseconds(2));

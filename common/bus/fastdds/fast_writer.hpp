@@ -72,7 +72,11 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
     const std::lock_guard lock(mutex_);
     Codec<T>::EncodeKey(key, sample_.wire);
     writer_->register_instance(&sample_);  // it may have been written before a restart
-    const Code code = writer_->dispose(&sample_, eprosima::fastdds::dds::HANDLE_NIL);
+    // Disposes, too (WriterQos): a reader of Fast DDS 2.9 asserts that a writer which is still
+    // registered with a disposed instance was alive before, and ends its process when that writer
+    // only followed one that died.
+    const Code code = writer_->unregister_instance(&sample_, eprosima::fastdds::dds::HANDLE_NIL);
+    written_.erase(Codec<T>::HashKey(sample_.wire));
     return code == Code::RETCODE_OK ? Ok() : Failed("dispose", code);
   }
 
@@ -94,8 +98,15 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
     return Error{ErrorCode::kUnavailable, where + "Fast DDS return code " + std::to_string(code())};
   }
 
-  // A weaker writer takes over at once when the owner says good-bye to its instances.
+  // A weaker writer takes over at once when the owner says good-bye to its instances, without
+  // disposing of them.
   void UnregisterAll() {
+    if (written_.empty()) {
+      return;
+    }
+    auto qos = writer_->get_qos();
+    qos.writer_data_lifecycle().autodispose_unregistered_instances = false;
+    writer_->set_qos(qos);
     for (const KeyHash& key : written_) {
       Codec<T>::FromKeyHash(key, sample_.wire);
       writer_->unregister_instance(&sample_, eprosima::fastdds::dds::HANDLE_NIL);

@@ -29,7 +29,7 @@ void BusFacts::Take(const ServiceHealth& health, Time received_at) {
 void BusFacts::Take(const sensing::MargSample& sample) {
   SensorFacts& sensor = sensors_[sample.sensor_uid];
   std::uint32_t& last = sequences_[sample.sensor_uid];
-  sensor.steps_back += sample.sequence < last ? 1U : 0U;
+  sensor.steps_back += sensor.samples > 0 && sample.sequence <= last ? 1U : 0U;
   last = sample.sequence;
   ++sensor.samples;
 }

@@ -243,7 +243,8 @@ void FindSensors(const DoctorFacts& facts, Findings& findings) {
     } else if (sensor.steps_back >= kStepsBack) {
       findings.push_back(
           {"duplicate_sensor",
-           fmt::format("sensor {} comes from two sources: its numbers fell {} times in {} samples",
+           fmt::format("sensor {} comes from two sources: its numbers fell or came again {} times "
+                       "in {} samples",
                        name, sensor.steps_back, sensor.samples),
            "stop one of the gateways, or give the sensors different serial numbers"});
     }

@@ -49,7 +49,7 @@ struct SensorFacts {
   std::string serial{};                ///< empty: unknown
   std::vector<std::string> wearers{};  ///< people in the roster that wear it
   std::uint64_t samples = 0;
-  std::uint64_t steps_back = 0;  ///< times that its sequence number fell
+  std::uint64_t steps_back = 0;  ///< times that its sequence number fell or came again
 };
 
 /// An endpoint of somebody that does not fit one of ours.

@@ -46,6 +46,16 @@ TEST_F(BusFactsTest, AProcessIsKnownByItsReportsAndTheSmallestAgeOfThem) {
   EXPECT_EQ(now.processes.at(5).smallest_age, 10ms);
 }
 
+TEST_F(BusFactsTest, TwoSourcesInStepAreNoticed) {
+  for (const std::uint32_t sequence : {0U, 0U, 1U, 1U, 2U, 2U, 3U}) {
+    sensing::MargSample sample;
+    sample.sensor_uid = {9};
+    sample.sequence = sequence;
+    Write(sample);
+  }
+  EXPECT_EQ(Now().sensors.at({9}).steps_back, 3U);
+}
+
 TEST_F(BusFactsTest, SensorsAreKnownByInfoSamplesAndWearers) {
   sensing::SensorInfo info;
   info.sensor_uid = {9};
