@@ -12,6 +12,10 @@ namespace {
 constexpr std::size_t kMaxFilterNameLength = 16;  // bound of the wire type
 constexpr double kMinFuture_s = 0.001;
 constexpr double kMaxFuture_s = 1e9;
+constexpr std::size_t kMaxPathLength = 4096;
+constexpr double kMinPeriod_s = 0.1;
+constexpr double kMaxPeriod_s = 3600.0;
+constexpr double kMaxStateAge_s = 1e7;
 
 FilterChoice ReadChoice(const config::Section& section, FilterChoice choice) {
   choice.name = section.Read("name", choice.name, kMaxFilterNameLength);
@@ -45,6 +49,11 @@ FusionConfig ReadFusionConfig(const config::ConfigFile& file) {
       fusion.Read("max_future_s", config.max_future_s, kMinFuture_s, kMaxFuture_s);
   config.declination_deg = fusion.Read("declination_deg", config.declination_deg, -180.0, 180.0);
   config.segment_frame = fusion.Read("segment_frame", config.segment_frame);
+  config.state_dir = fusion.Read("state_dir", config.state_dir, kMaxPathLength);
+  config.state_period_s =
+      fusion.Read("state_period_s", config.state_period_s, kMinPeriod_s, kMaxPeriod_s);
+  config.state_max_age_s =
+      fusion.Read("state_max_age_s", config.state_max_age_s, 0.0, kMaxStateAge_s);
   config.position = ReadPositionConfig(fusion);
 
   const config::Section filter = file.Get("filter");
@@ -69,6 +78,24 @@ FusionConfig ReadFusionConfig(const config::ConfigFile& file) {
     }
   }
   return config;
+}
+
+std::uint64_t FilterSettingsNumber(const FusionConfig& config) {
+  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  const auto add = [&hash](std::string_view text) {
+    for (const char c : text) {
+      hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+    }
+    hash = (hash ^ 0xffU) * 0x100000001b3U;  // an end that no text has
+  };
+  for (const auto& [filter, settings] : config.filter_settings) {
+    add(filter);
+    for (const auto& [key, value] : settings) {
+      add(key);
+      add(value);
+    }
+  }
+  return hash;
 }
 
 FilterFactory MakeFilterFactory(const FusionConfig& config) {
@@ -97,6 +124,14 @@ Status Validate(const FusionConfig& config, const FilterFactory& factory) {
   if (!(std::abs(config.declination_deg) <= 180.0)) {
     return refuse(fmt::format("fusion.declination_deg must be in [-180, 180], is {}",
                               config.declination_deg));
+  }
+  if (!(config.state_period_s >= kMinPeriod_s && config.state_period_s <= kMaxPeriod_s)) {
+    return refuse(
+        fmt::format("fusion.state_period_s must be in [0.1, 3600], is {}", config.state_period_s));
+  }
+  if (!(config.state_max_age_s >= 0.0 && config.state_max_age_s <= kMaxStateAge_s)) {
+    return refuse(
+        fmt::format("fusion.state_max_age_s must be in [0, 1e7], is {}", config.state_max_age_s));
   }
   if (Status valid = Validate(config.position); !valid) {
     return valid;

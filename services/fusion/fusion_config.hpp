@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -45,6 +46,16 @@ struct FusionConfig {
   /// each alone, as `segment_state`. Services that stand by for each other publish the same way.
   bool segment_frame = false;
 
+  /// Folder in which the states of the filters survive a restart; "" = they do not. One service
+  /// each.
+  std::string state_dir;
+
+  /// How often they are saved. Range: [0.1, 3600].
+  double state_period_s = 2.0;
+
+  /// Older ones are not taken up again. Range: [0, 1e7].
+  double state_max_age_s = 3600.0;
+
   /// Tables [fusion.coils] and [fusion.markers].
   PositionConfig position;
 
@@ -60,6 +71,9 @@ using FilterFactory =
 /// Reads [fusion], [filter], [filter.segment.<segment>] and [filter.settings.<name>]. Refusals are
 /// remembered in `file` (ask Finish).
 [[nodiscard]] FusionConfig ReadFusionConfig(const config::ConfigFile& file);
+
+/// A number that differs when the settings of the filters do.
+[[nodiscard]] std::uint64_t FilterSettingsNumber(const FusionConfig& config);
 
 /// filters::MakeFilter with the settings of `config`.
 [[nodiscard]] FilterFactory MakeFilterFactory(const FusionConfig& config);

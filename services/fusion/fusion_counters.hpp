@@ -17,6 +17,7 @@ struct FusionCounters {
   std::uint64_t published = 0;
   std::uint64_t publish_errors = 0;
   std::uint64_t positions = 0;         ///< states with a position
+  std::uint64_t restored = 0;          ///< sensors whose filter went on from a saved state
   std::uint64_t queue_high_water = 0;  ///< most samples that ever waited for one worker
   VerdictCounters verdicts;
 };
@@ -31,6 +32,7 @@ class CounterCells {
     lost_.store(lost_.load(std::memory_order_relaxed) + lost, std::memory_order_relaxed);
   }
   void AddPosition(bool there) { Bump(positions_, there ? 1 : 0); }
+  void AddRestored() { Bump(restored_, 1); }
   void AddPublished(bool ok) { Bump(ok ? published_ : publish_errors_, 1); }
   void SawQueue(std::uint64_t length) {
     if (length > queue_high_water_.load(std::memory_order_relaxed)) {
@@ -47,6 +49,7 @@ class CounterCells {
     sum.probes += probes_.load(std::memory_order_relaxed);
     sum.lost += lost_.load(std::memory_order_relaxed);
     sum.positions += positions_.load(std::memory_order_relaxed);
+    sum.restored += restored_.load(std::memory_order_relaxed);
     sum.published += published_.load(std::memory_order_relaxed);
     sum.publish_errors += publish_errors_.load(std::memory_order_relaxed);
     const std::uint64_t high = queue_high_water_.load(std::memory_order_relaxed);
@@ -63,6 +66,7 @@ class CounterCells {
   Cell probes_{0};
   std::atomic<std::int64_t> lost_{0};
   Cell positions_{0};
+  Cell restored_{0};
   Cell published_{0};
   Cell publish_errors_{0};
   Cell queue_high_water_{0};

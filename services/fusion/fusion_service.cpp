@@ -23,7 +23,20 @@ FusionService::FusionService(FusionConfig config, const Clock& clock, bus::Bus& 
       clock_(clock),
       bus_(bus),
       pool_(pool),
-      router_(config_, pool.size()) {
+      router_(config_, pool.size()),
+      store_(config_.state_dir, FilterSettingsNumber(config_)),
+      keeper_(
+          store_, clock_, pool.size(),
+          [this](std::size_t worker, std::shared_ptr<FilterSnapshot> snapshot) {
+            const bool room = workers_[worker]->Offer(std::move(snapshot));
+            pool_.Wake(worker);
+            return room;
+          },
+          [this](const Status& written) {
+            if (!written) {
+              SetLastError(written.error().message);
+            }
+          }) {
   Expects(pool_.size() <= kMaxWorkers, "at most 64 workers");
 }
 
@@ -41,6 +54,9 @@ Status FusionService::Listen(std::unique_ptr<bus::Reader<T>>& reader,
 Status FusionService::Start() {
   Expects(!started_, "a service is started once");
   started_ = true;
+  if (Status taken = TakeUpFilters(); !taken) {
+    return taken;
+  }
   auto state_writers = StateWriters::Make(bus_, config_.segment_frame);
   if (!state_writers) {
     return state_writers.error();
@@ -52,14 +68,39 @@ Status FusionService::Start() {
   }
   reply_writer_ = std::move(*reply_writer);
   for (std::size_t i = 0; i < pool_.size(); ++i) {
-    workers_.push_back(
-        std::make_unique<FusionWorker>(config_, factory_, clock_, state_writers_, latencies_));
+    workers_.push_back(std::make_unique<FusionWorker>(config_, factory_, clock_, state_writers_,
+                                                      latencies_, saved_filters_));
   }
   pool_.Start([this](std::size_t worker) -> std::optional<Time> {
     workers_[worker]->Drain();
     return std::nullopt;
   });
+  if (store_.keeps()) {
+    keeper_.Start(DurationFromSeconds(config_.state_period_s));
+  }
   return MakeReaders();
+}
+
+// Without them everything works, so a damaged file is only told of.
+Status FusionService::TakeUpFilters() {
+  if (Status prepared = store_.Prepare(); !prepared) {
+    return prepared;
+  }
+  const Duration max_age = DurationFromSeconds(config_.state_max_age_s);
+  if (const Status loaded = store_.Load(clock_.Now(), max_age, saved_filters_); !loaded) {
+    SetLastError(loaded.error().message);
+  }
+  return Ok();
+}
+
+// What the filters know at the end; with the pool stopped.
+void FusionService::KeepFilters() {
+  std::vector<std::shared_ptr<FilterSnapshot>> snapshots;
+  for (const auto& worker : workers_) {
+    snapshots.push_back(std::make_shared<FilterSnapshot>());
+    worker->SaveFilters(*snapshots.back());
+  }
+  keeper_.SaveNow(std::move(snapshots));
 }
 
 Status FusionService::MakeReaders() {
@@ -132,7 +173,9 @@ Status FusionService::MakeReaders() {
 }
 
 void FusionService::Stop() {
+  keeper_.Stop();
   const std::scoped_lock lock(endpoints_mutex_);
+  const bool running = roster_reader_ != nullptr;
   roster_reader_.reset();
   command_reader_.reset();
   marg_reader_.reset();
@@ -142,6 +185,9 @@ void FusionService::Stop() {
   sensor_info_reader_.reset();
   if (started_) {
     pool_.Stop();
+  }
+  if (running && store_.keeps()) {
+    KeepFilters();
   }
 }
 
@@ -313,6 +359,9 @@ void FusionService::FillHealth(ServiceHealth& health) {
   add("states.published", sum.published);
   add("states.errors", sum.publish_errors);
   add("states.with_position", sum.positions);
+  add("filters.restored", sum.restored);
+  add("filters.saved", keeper_.saved());
+  add("filters.save_errors", keeper_.errors());
   add("gauge.queue_high_water", sum.queue_high_water);
   {
     const std::scoped_lock lock(endpoints_mutex_);

@@ -14,6 +14,8 @@
 #include "common/bus/bus.hpp"
 #include "common/roster/answered_commands.hpp"
 #include "common/runtime/worker_pool.hpp"
+#include "services/fusion/filter_keeper.hpp"
+#include "services/fusion/filter_store.hpp"
 #include "services/fusion/fusion_config.hpp"
 #include "services/fusion/fusion_counters.hpp"
 #include "services/fusion/fusion_worker.hpp"
@@ -40,7 +42,8 @@ class FusionService {
   FusionService(const FusionService&) = delete;
   FusionService& operator=(const FusionService&) = delete;
 
-  /// Joins the topics and starts the pool. Called once. Fails when the bus refuses.
+  /// Joins the topics and starts the pool. Called once. Fails when the bus refuses, or the folder
+  /// of `state_dir` cannot be written to.
   [[nodiscard]] Status Start();
 
   /// Leaves the topics, finishes what is queued, stops the pool. Idempotent.
@@ -68,6 +71,8 @@ class FusionService {
                                                  std::uint64_t& touched);
   [[nodiscard]] std::uint64_t HandOver(std::vector<BodyPlan> plans);
   void Wake(std::uint64_t touched);
+  [[nodiscard]] Status TakeUpFilters();
+  void KeepFilters();
   void SetLastError(const std::string& message);
 
   const FusionConfig config_;
@@ -86,6 +91,10 @@ class FusionService {
   std::string last_error_;
 
   roster::AnsweredCommands answered_;  // by the one command reader, which calls one at a time
+
+  const FilterStore store_;
+  SavedFilters saved_filters_;
+  FilterKeeper keeper_;
 
   mutable std::mutex endpoints_mutex_;  // Stop takes the readers while FillHealth looks at them
   bool started_ = false;

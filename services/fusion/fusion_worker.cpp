@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "common/units/units.hpp"
 
@@ -18,13 +19,15 @@ bool Names(const BodyPlan& plan, SensorUid sensor_uid) {
 }  // namespace
 
 FusionWorker::FusionWorker(const FusionConfig& config, const FilterFactory& factory,
-                           const Clock& clock, StateWriters& writers, FusionLatencies& latencies)
+                           const Clock& clock, StateWriters& writers, FusionLatencies& latencies,
+                           SavedFilters& saved)
     : seated_([this, &factory](std::string_view name) {
         auto made = factory(name);
         return made.ok() ? batches_.Seat(std::move(*made)) : std::move(made);
       }),
       clock_(clock),
       latencies_(latencies),
+      saved_(saved),
       max_future_(DurationFromSeconds(config.max_future_s)),
       declination_rad_(units::RadFromDeg(config.declination_deg)),
       queue_(config.queue_capacity),
@@ -161,14 +164,31 @@ void FusionWorker::Handle(const std::shared_ptr<const BodyPlan>& plan, const Rec
       found->second.track.Apply(track, seated_);
     } else {
       tracks_.erase(track.sensor_uid);
-      tracks_.try_emplace(track.sensor_uid, plan->body_id, track, seated_, max_future_,
-                          declination_rad_);
+      Tracked& tracked = tracks_
+                             .try_emplace(track.sensor_uid, plan->body_id, track, seated_,
+                                          max_future_, declination_rad_)
+                             .first->second;
+      const std::vector<std::byte> state = saved_.Take(track.sensor_uid);
+      if (!state.empty() && tracked.track.Restore(state)) {
+        counters_.AddRestored();
+      }
     }
   }
   BodyPositions& positions = positions_.try_emplace(plan->body_id, position_config_).first->second;
   positions.Apply(*plan);
   if (positions.empty()) {
     positions_.erase(plan->body_id);
+  }
+}
+
+void FusionWorker::Handle(const std::shared_ptr<FilterSnapshot>& snapshot, const Reception&) {
+  SaveFilters(*snapshot);
+  snapshot->complete.store(true, std::memory_order_release);
+}
+
+void FusionWorker::SaveFilters(FilterSnapshot& snapshot) const {
+  for (const auto& [sensor_uid, tracked] : tracks_) {
+    snapshot.Add(sensor_uid, tracked.track.filter());
   }
 }
 

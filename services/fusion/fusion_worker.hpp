@@ -13,6 +13,7 @@
 #include "common/runtime/bounded_queue.hpp"
 #include "common/runtime/latency_histogram.hpp"
 #include "services/fusion/body_positions.hpp"
+#include "services/fusion/filter_store.hpp"
 #include "services/fusion/fusion_config.hpp"
 #include "services/fusion/fusion_counters.hpp"
 #include "services/fusion/router.hpp"
@@ -38,11 +39,11 @@ struct FusionLatencies {
 class FusionWorker {
  public:
   using Work = std::variant<sensing::MargSample, sensing::FusedOrientation, sensing::MarkerPosition,
-                            std::shared_ptr<const BodyPlan>>;
+                            std::shared_ptr<const BodyPlan>, std::shared_ptr<FilterSnapshot>>;
 
-  /// What is referred to outlives it.
+  /// What is referred to outlives it. New sensors go on from `saved`, if they are there.
   FusionWorker(const FusionConfig& config, const FilterFactory& factory, const Clock& clock,
-               StateWriters& writers, FusionLatencies& latencies);
+               StateWriters& writers, FusionLatencies& latencies, SavedFilters& saved);
 
   /// Queues a sample. False: the queue is full. (Some places are kept for plans.)
   [[nodiscard]] bool Offer(const sensing::MargSample& sample, const Reception& reception) {
@@ -61,8 +62,16 @@ class FusionWorker {
     return queue_.TryPush({{}, std::move(plan)});
   }
 
+  /// Queues the question what the filters know. False: the queue is full.
+  [[nodiscard]] bool Offer(std::shared_ptr<FilterSnapshot> snapshot) {
+    return queue_.TryPush({{}, std::move(snapshot)}, kKeptForPlans);
+  }
+
   /// Filters and publishes everything that is queued.
   void Drain();
+
+  /// What the filters know now. Not while Drain runs.
+  void SaveFilters(FilterSnapshot& snapshot) const;
 
   [[nodiscard]] const CounterCells& counters() const { return counters_; }
 
@@ -86,6 +95,7 @@ class FusionWorker {
   void Handle(const sensing::FusedOrientation& orientation, const Reception& reception);
   void Handle(const sensing::MarkerPosition& marker, const Reception& reception);
   void Handle(const std::shared_ptr<const BodyPlan>& plan, const Reception& reception);
+  void Handle(const std::shared_ptr<FilterSnapshot>& snapshot, const Reception& reception);
   void AddPosition(BodyId body_id, const sensing::MargSample& sample,
                    const SensorTrack::Output& output);
   [[nodiscard]] Tracked* Find(SensorUid sensor_uid);
@@ -105,6 +115,7 @@ class FusionWorker {
   const FilterFactory seated_;  // the service's factory, with a seat for what it makes
   const Clock& clock_;
   FusionLatencies& latencies_;
+  SavedFilters& saved_;
   const Duration max_future_;
   const double declination_rad_;
   runtime::BoundedQueue<Item> queue_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -60,6 +61,14 @@ class SensorTrack {
   /// taken by a filter beside).
   [[nodiscard]] Output Update(const sensing::FusedOrientation& orientation,
                               const Reception& reception);
+
+  /// The filter of slot 0, to save its state.
+  [[nodiscard]] const filters::OrientationFilter& filter() const { return *filter_; }
+  /// Lets it go on from a state that it saved. False: that was of another filter, and it starts
+  /// anew.
+  [[nodiscard]] bool Restore(std::span<const std::byte> state) {
+    return filter_->RestoreState(state).ok();
+  }
 
   [[nodiscard]] body::Segment segment() const { return plan_.segment; }
   [[nodiscard]] bool has_beside() const { return beside_ != nullptr; }

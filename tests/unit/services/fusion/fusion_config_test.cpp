@@ -46,6 +46,19 @@ rho = 0.3
   EXPECT_TRUE(Validate(config, MakeFilterFactory(config)).ok());
 }
 
+TEST(FusionConfigTest, SettingsOfFiltersHaveANumberOfTheirOwn) {
+  FusionConfig config;
+  const std::uint64_t none = FilterSettingsNumber(config);
+  config.filter_settings["bmf"] = {{"slow_rate_hz", "10"}};
+  const std::uint64_t one = FilterSettingsNumber(config);
+  config.filter_settings["bmf"] = {{"slow_rate_hz", "11"}};
+  const std::uint64_t other = FilterSettingsNumber(config);
+  config.workers = 5;
+  EXPECT_NE(none, one);
+  EXPECT_NE(one, other);
+  EXPECT_EQ(other, FilterSettingsNumber(config)) << "workers are none of theirs";
+}
+
 TEST(FusionConfigTest, RefusalsNameThePlaceTheValueAndTheLimit) {
   std::string message;
   (void)ReadText("[fusion]\nworkers = 65\n", &message);
@@ -79,6 +92,14 @@ TEST(FusionConfigTest, ValidateRefusesFiltersThatNobodyMakesAndValuesOutsideThei
   config.declination_deg = 181.0;
   EXPECT_EQ(Validate(config, factory).error().message,
             "fusion.declination_deg must be in [-180, 180], is 181");
+  config = {};
+  config.state_period_s = 0.0;
+  EXPECT_EQ(Validate(config, factory).error().message,
+            "fusion.state_period_s must be in [0.1, 3600], is 0");
+  config = {};
+  config.state_max_age_s = -1.0;
+  EXPECT_EQ(Validate(config, factory).error().message,
+            "fusion.state_max_age_s must be in [0, 1e7], is -1");
 }
 
 TEST(FusionConfigTest, TheFileThatIsDeployedSaysTheDefaults) {
@@ -95,6 +116,9 @@ TEST(FusionConfigTest, TheFileThatIsDeployedSaysTheDefaults) {
   EXPECT_EQ(config.queue_capacity, defaults.queue_capacity);
   EXPECT_EQ(config.max_future_s, defaults.max_future_s);
   EXPECT_EQ(config.declination_deg, defaults.declination_deg);
+  EXPECT_EQ(config.state_dir, defaults.state_dir);
+  EXPECT_EQ(config.state_period_s, defaults.state_period_s);
+  EXPECT_EQ(config.state_max_age_s, defaults.state_max_age_s);
   EXPECT_EQ(config.filter, defaults.filter);
   EXPECT_TRUE(config.segment_filters.empty());
 }

@@ -68,7 +68,8 @@ class FusionWorkerTest : public ::testing::Test {
   StateWriters writers{.single = std::make_unique<WriterSpy>(), .frames = nullptr};
   WriterSpy& writer = static_cast<WriterSpy&>(*writers.single);
   FusionLatencies latencies;
-  FusionWorker worker{config, factory, world.clock, writers, latencies};
+  SavedFilters saved;
+  FusionWorker worker{config, factory, world.clock, writers, latencies, saved};
 };
 
 TEST_F(FusionWorkerTest, DrainAnswersEverySampleInOrderAndFlushesOnceAtTheEnd) {
