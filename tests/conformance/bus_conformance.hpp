@@ -236,6 +236,8 @@ TEST_P(BusConformance, StrongerWriterIsHeardAloneAndTheWeakerTakesOverWhenItLeav
   const auto taken_over = std::find_if(both.begin(), both.end(), from_strong);
   EXPECT_TRUE(std::all_of(taken_over, both.end(), from_strong)) << "heard the weaker one between";
 
+  EXPECT_EQ(reader->counters().lost, 0U) << "what a weaker writer says is not lost";
+
   const auto left_at = std::chrono::steady_clock::now();
   strong.reset();
   ASSERT_TRUE(collector.WaitUntil(

@@ -50,7 +50,7 @@ class CycloneReader final : public Reader<T> {
     malformed_->Add(&events_);
     const Qos qos =
         ReaderQos(Topic<T>::kProfile, Topic<T>::kExclusiveOwnership, participant_.config());
-    const Listener listener = ReaderListener(events_, &OnData, this);
+    const Listener listener = ReaderListener(events_, Topic<T>::kExclusiveOwnership, &OnData, this);
     reader_ =
         dds_create_reader(participant_.subscriber(), topic->entity, qos.get(), listener.get());
     return reader_ < 0 ? CycloneError("reader of", Topic<T>::kName, reader_) : Status();
