@@ -5,6 +5,7 @@
 
 #include "common/filters/bounded_motion_config.hpp"
 #include "common/filters/lanes.hpp"
+#include "common/filters/lendable.hpp"
 
 namespace limbcast::filters {
 
@@ -156,23 +157,25 @@ class BoundedMotionCore {
   void TurnHeading(const Eigen::Quaternion<Scalar>& q_turn);
 
   /// Adds to the attitude variance (all axes) with the next slow step, e.g. for a bridged gap.
-  void InflateAttitude(Scalar variance_rad2) { state_.sum_extra_theta += variance_rad2; }
+  void InflateAttitude(Scalar variance_rad2) { state_->sum_extra_theta += variance_rad2; }
 
   /// Adds to the heading variance at once, e.g. for a start beside iron.
-  void InflateHeading(Scalar variance_rad2) { state_.P(2, 2) += variance_rad2; }
+  void InflateHeading(Scalar variance_rad2) { state_->P(2, 2) += variance_rad2; }
 
-  [[nodiscard]] const State& state() const { return state_; }
-  [[nodiscard]] State& mutable_state() { return state_; }
+  [[nodiscard]] const State& state() const { return *state_; }
+  [[nodiscard]] State& mutable_state() { return *state_; }
+  /// The state moves to a place that others use, too, see Lendable.
+  void LendState(State& place) { state_.Lend(place); }
   [[nodiscard]] bool at_rest() const {
-    return state_.rest_time_s > static_cast<Scalar>(BoundedMotionStep<Scalar>::kRestAfter_s);
+    return state_->rest_time_s > static_cast<Scalar>(BoundedMotionStep<Scalar>::kRestAfter_s);
   }
   [[nodiscard]] const BoundedMotionConfig& config() const { return config_; }
 
  private:
-  [[nodiscard]] BoundedMotionStep<Scalar> step() { return {config_, state_}; }
+  [[nodiscard]] BoundedMotionStep<Scalar> step() { return {config_, *state_}; }
 
   BoundedMotionConfig config_;
-  State state_;
+  Lendable<State> state_;
 };
 
 extern template class BoundedMotionStep<double>;

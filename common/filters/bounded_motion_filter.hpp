@@ -59,8 +59,15 @@ class BoundedMotionFilter final : public OrientationFilter {
 
   [[nodiscard]] const Config& config() const { return core_.config(); }
   [[nodiscard]] CoreState& core_state() { return core_.mutable_state(); }
+  /// See BoundedMotionCore.
+  void LendCoreState(CoreState& place) { core_.LendState(place); }
+  template <typename Copy>
+  static void ForEachPassed(CoreState& core, Copy copy) {
+    copy(core.has_field);
+  }
   template <typename Copy>
   static void ForEachReported(CoreState& core, Copy copy) {
+    copy(core.has_field);
     copy(core.q_ES);
     copy(core.w_ES_S);
     copy(core.rest_time_s);

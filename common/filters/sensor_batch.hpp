@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,7 @@ class AnySensorBatch {
 
 /// Eight filters of one kind and configuration whose cores are kept number by number and stepped
 /// together (DESIGN-batch.md). Start, gaps and other special samples are the affair of each filter,
-/// on its own copy of its core. What a seat gives does not depend on who else sits there.
+/// on a copy of its core. What a seat gives does not depend on who else sits there.
 ///
 /// Filter: GaussNewtonOrientation or BoundedMotionFilter. Thread-compatible; allocates nothing
 /// after construction.
@@ -90,6 +91,11 @@ class SensorBatch final : public AnySensorBatch {
     std::array<std::byte, kBlockAlignment_bytes> bytes;
   };
   using Blocks = std::vector<Cell>;
+  // Large cores live in their lanes alone: the filters share one place for what they look at.
+  static constexpr bool kLends = requires(Filter & filter, CoreState& place) {
+    filter.LendCoreState(place);
+  };
+  struct Nothing {};
 
   class Seated final : public BatchedFilter {
    public:
@@ -102,24 +108,26 @@ class SensorBatch final : public AnySensorBatch {
           states_(batch_->At(batch_->states_, seat)),
           filter_(std::move(filter)) {
       batch_->taken_.set(Index(seat_));
+      PutAll();
+      if constexpr (kLends) {
+        filter_->LendCoreState(batch_->scratch_);
+      }
     }
     Seated(const Seated&) = delete;
     Seated& operator=(const Seated&) = delete;
     ~Seated() override { batch_->taken_.reset(Index(seat_)); }
 
     void Submit(const sensing::MargSample& sample) override {
+      FetchPassed();
       step_ = filter_->Pass(sample);
       if (step_ == SampleStep::kPlain) {
-        if (!in_batch_) {
-          lanes::PutLane<CoreState, Number>(states_, width_, lane_, filter_->core_state());
-          in_batch_ = true;
-        }
         lanes::PutLane<CoreInput, Number>(inputs_, width_, lane_, filter_->core_input());
         batch_->submitted_.set(Index(seat_));
       }
     }
 
     SampleVerdict Take() override {
+      SampleVerdict verdict = SampleVerdict::kNoData;
       switch (step_) {
         case SampleStep::kPlain:
           Filter::ForEachReported(filter_->core_state(),
@@ -127,8 +135,9 @@ class SensorBatch final : public AnySensorBatch {
           return filter_->Report();
         case SampleStep::kSpecial:
           FetchAll();
-          in_batch_ = false;
-          return filter_->StepAlone();
+          verdict = filter_->StepAlone();
+          PutAll();
+          return verdict;
         case SampleStep::kNone:
           break;
       }
@@ -142,8 +151,8 @@ class SensorBatch final : public AnySensorBatch {
     }
     [[nodiscard]] const FilterEstimate& estimate() const override { return filter_->estimate(); }
     void Reset() override {
-      in_batch_ = false;
       filter_->Reset();
+      PutAll();
     }
     [[nodiscard]] std::string_view name() const override { return filter_->name(); }
     [[nodiscard]] std::size_t state_size_bytes() const override {
@@ -155,8 +164,9 @@ class SensorBatch final : public AnySensorBatch {
     }
     [[nodiscard]] Status RestoreState(std::span<const std::byte> in) override {
       FetchAll();
-      in_batch_ = false;
-      return filter_->RestoreState(in);
+      Status restored = filter_->RestoreState(in);
+      PutAll();
+      return restored;
     }
 
    private:
@@ -169,9 +179,14 @@ class SensorBatch final : public AnySensorBatch {
       lanes::GetLane<Member, Number>(states_ + offset * static_cast<std::size_t>(width_), width_,
                                      lane_, member);
     }
-    void FetchAll() const {
-      if (in_batch_) {
-        Fetch(filter_->core_state());
+    void FetchAll() const { Fetch(filter_->core_state()); }
+    void PutAll() {
+      lanes::PutLane<CoreState, Number>(states_, width_, lane_, filter_->core_state());
+    }
+    // What Pass looks at: the place of the core may hold another seat's.
+    void FetchPassed() const {
+      if constexpr (kLends) {
+        Filter::ForEachPassed(filter_->core_state(), [this](auto& member) { this->Fetch(member); });
       }
     }
 
@@ -183,7 +198,6 @@ class SensorBatch final : public AnySensorBatch {
     std::byte* states_;
     std::unique_ptr<Filter> filter_;
     SampleStep step_ = SampleStep::kNone;
-    bool in_batch_ = false;  // the core there is newer than the filter's own
   };
 
   template <typename Record>
@@ -213,6 +227,7 @@ class SensorBatch final : public AnySensorBatch {
   std::size_t present_offset_;
   Blocks inputs_;
   Blocks states_;
+  std::conditional_t<kLends, CoreState, Nothing> scratch_;
   std::bitset<kSeats> taken_;
   std::bitset<kSeats> submitted_;
 };
