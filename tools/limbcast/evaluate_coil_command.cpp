@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/simulation/random.hpp"
@@ -15,6 +16,7 @@
 #include "tools/limbcast/evaluate/coil_endurance.hpp"
 #include "tools/limbcast/evaluate/coil_recording.hpp"
 #include "tools/limbcast/evaluate/coil_report.hpp"
+#include "tools/limbcast/evaluate/parallel.hpp"
 #include "tools/limbcast/evaluate/progress_bar.hpp"
 #include "tools/limbcast/evaluate/recordings.hpp"
 #include "tools/limbcast/report/report_text.hpp"
@@ -44,16 +46,29 @@ int Save(const CoilOptions& options, const nlohmann::json& json) {
   return 0;
 }
 
-int EvaluateExperiments(const CoilOptions& options) {
-  const std::vector<CoilExperiment> experiments = MakeCoilExperiments(options.seed);
-  std::vector<CoilResult> results;
+// What `evaluate` says of the experiments that are asked for, at each noise.
+template <typename Result>
+std::vector<Result> OfEach(const CoilOptions& options,
+                           const std::vector<CoilExperiment>& experiments,
+                           Result (*evaluate)(const CoilExperiment&, CoilNoise, std::uint64_t)) {
+  std::vector<std::pair<CoilNoise, const CoilExperiment*>> wanted;
   for (const CoilNoise noise : kNoises) {
     for (const CoilExperiment& experiment : experiments) {
       if (experiment.name.find(options.only) != std::string::npos) {
-        results.push_back(EvaluateCoil(experiment, noise, options.seed));
+        wanted.emplace_back(noise, &experiment);
       }
     }
   }
+  std::vector<Result> results(wanted.size());
+  ForEachIndex(wanted.size(), [&](std::size_t i) {
+    results[i] = evaluate(*wanted[i].second, wanted[i].first, options.seed);
+  });
+  return results;
+}
+
+int EvaluateExperiments(const CoilOptions& options) {
+  const std::vector<CoilExperiment> experiments = MakeCoilExperiments(options.seed);
+  const auto results = OfEach<CoilResult>(options, experiments, &EvaluateCoil);
   fmt::print("{}", CoilTable(experiments, results));
   return Save(options, CoilJson(experiments, results, options.seed));
 }
@@ -61,14 +76,7 @@ int EvaluateExperiments(const CoilOptions& options) {
 int EvaluatePulsing(const CoilOptions& options) {
   std::vector<CoilExperiment> experiments = MakeCoilExperiments(options.seed);
   experiments.push_back(MakeRestingExperiment());
-  std::vector<CoilAdaptiveResult> results;
-  for (const CoilNoise noise : kNoises) {
-    for (const CoilExperiment& experiment : experiments) {
-      if (experiment.name.find(options.only) != std::string::npos) {
-        results.push_back(EvaluateAdaptive(experiment, noise, options.seed));
-      }
-    }
-  }
+  const auto results = OfEach<CoilAdaptiveResult>(options, experiments, &EvaluateAdaptive);
   fmt::print("{}", AdaptiveTable(results));
   return Save(options, AdaptiveJson(results, options.seed));
 }
@@ -88,15 +96,20 @@ int EvaluateRecordings(const CoilOptions& options) {
       return Refuse(kCommand, recording.error());
     }
     const auto gaps = GapTrialOf(*recording, file.stem().string());
-    for (const CoilNoise noise : kNoises) {
-      const auto trial =
-          gaps ? MakeCoilTrial(*gaps, noise, options.seed) : std::optional<CoilTrial>();
-      if (!trial) {
+    std::array<std::optional<CoilResult>, kNoises.size()> of_file;
+    ForEachIndex(kNoises.size(), [&](std::size_t i) {
+      if (const auto trial =
+              gaps ? MakeCoilTrial(*gaps, kNoises[i], options.seed) : std::optional<CoilTrial>()) {
+        of_file[i] = EvaluateTrial(*trial);
+      }
+    });
+    for (const auto& result : of_file) {
+      if (!result) {
         return Refuse(kCommand,
                       {ErrorCode::kCorruptData,
                        file.string() + " has no motion with a known position to compare with"});
       }
-      results.push_back(EvaluateTrial(*trial));
+      results.push_back(*result);
     }
   }
   if (results.empty()) {

@@ -9,6 +9,7 @@
 
 #include "services/gateway/drivers/replay/recording_reader.hpp"
 #include "tools/limbcast/evaluate/gap_report.hpp"
+#include "tools/limbcast/evaluate/parallel.hpp"
 #include "tools/limbcast/evaluate/recordings.hpp"
 #include "tools/limbcast/position_settings.hpp"
 #include "tools/limbcast/report/report_text.hpp"
@@ -51,12 +52,13 @@ int EvaluateGapsIn(const GapOptions& options) {
                     {ErrorCode::kCorruptData,
                      file.string() + " has no samples with a known position to compare with"});
     }
-    for (const double gap_s : options.gaps_s) {
-      results.push_back(EvaluateGaps(*config, *trial, gap_s));
-    }
-    for (const int ratio : options.ratios) {
-      results.push_back(EvaluateRatio(*config, *trial, ratio));
-    }
+    const std::size_t gaps = options.gaps_s.size();
+    std::vector<GapResult> of_trial(gaps + options.ratios.size());
+    ForEachIndex(of_trial.size(), [&](std::size_t i) {
+      of_trial[i] = i < gaps ? EvaluateGaps(*config, *trial, options.gaps_s[i])
+                             : EvaluateRatio(*config, *trial, options.ratios[i - gaps]);
+    });
+    results.insert(results.end(), of_trial.begin(), of_trial.end());
   }
   fmt::print("{}", GapTable(results, options.settings));
   if (!options.json.empty()) {

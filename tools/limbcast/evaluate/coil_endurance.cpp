@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <numbers>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "common/base/expects.hpp"
 #include "common/filters/position/coil_inertial_filter.hpp"
 #include "common/simulation/random.hpp"
 #include "common/simulation/smooth_step.hpp"
 #include "tools/limbcast/evaluate/coil_trial.hpp"
+#include "tools/limbcast/evaluate/parallel.hpp"
 
 namespace limbcast::tool {
 namespace {
@@ -289,15 +293,18 @@ CoilEndurance RunCoilSubjects(std::uint64_t first_seed, int count,
                               const std::function<void(int)>& progress) {
   constexpr double kRun_s = 20.0;
   constexpr double kLossEvery_s = 6.0;
-  CoilEndurance sum;
-  for (int i = 0; i < count; ++i) {
-    sum = sum + RunCoilSubject(first_seed + static_cast<std::uint64_t>(i), kRun_s,
-                               i / 2 % 2 == 0 ? 0.0 : kLossEvery_s);
+  std::vector<CoilEndurance> runs(static_cast<std::size_t>(count));
+  std::mutex telling;
+  int done = 0;
+  ForEachIndex(runs.size(), [&](std::size_t i) {
+    runs[i] = RunCoilSubject(first_seed + i, kRun_s, i / 2 % 2 == 0 ? 0.0 : kLossEvery_s);
+    const std::scoped_lock lock(telling);
+    ++done;
     if (progress) {
-      progress(i + 1);
+      progress(done);
     }
-  }
-  return sum;
+  });
+  return std::accumulate(runs.begin(), runs.end(), CoilEndurance());
 }
 
 }  // namespace limbcast::tool
