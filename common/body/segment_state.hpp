@@ -14,13 +14,17 @@
 
 namespace limbcast::body {
 
+/// The slot of positions that were smoothed by what came after them. Such a state is published
+/// beside that of a later sample.
+inline constexpr std::uint8_t kLaggedSlot = 2;
+
 /// What one filter says of one segment's sensor after one sample. The fusion service publishes
 /// exactly one for each sample it receives of an assigned sensor, used or refused ("one in, one
 /// out"), so a gap here is a loss, and `sequence` acknowledges the sample.
 struct SegmentState {
   BodyId body_id;
   Segment segment = Segment::kPelvis;
-  std::uint8_t slot = 0;  ///< 0 = the filter in use, 1 = the one run beside it (A/B)
+  std::uint8_t slot = 0;  ///< 0 = the filter in use, 1 = the one run beside it, 2 = kLaggedSlot
   SensorUid sensor_uid;
   std::uint32_t sequence = 0;                      ///< of the sample that this state answers
   SampleVerdict verdict = SampleVerdict::kNoData;  ///< of that sample

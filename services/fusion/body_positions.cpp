@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/math/rotation.hpp"
+
 namespace limbcast::fusion {
 namespace {
 
@@ -17,6 +19,14 @@ template <typename Tracks>
 auto Find(Tracks& tracks, SensorUid sensor_uid) {
   return std::find_if(tracks.begin(), tracks.end(),
                       [&](const auto& track) { return track.sensor_uid == sensor_uid; });
+}
+
+void Put(const SegmentPosition& position, body::SegmentState& state) {
+  state.has_position = true;
+  state.position_fill = position.fill;
+  state.p_earth_sensor_m = position.p_earth_sensor_m.cast<float>();
+  state.v_earth_sensor_m_s = position.v_earth_sensor_m_s.cast<float>();
+  state.cov_position_m2 = position.cov_position_m2.cast<float>();
 }
 
 }  // namespace
@@ -40,8 +50,9 @@ void BodyPositions::Apply(const BodyPlan& plan) {
     }
     const auto old = Find(coils_, sensor->sensor_uid);
     coils.push_back({.sensor_uid = sensor->sensor_uid,
-                     .track = old != coils_.end() ? std::move(old->track)
-                                                  : std::make_unique<CoilTrack>(config_.coils)});
+                     .track = old != coils_.end()
+                                  ? std::move(old->track)
+                                  : std::make_unique<CoilTrack>(config_.coils, config_.lag_s)});
   }
   for (const body::Segment segment : config_.markers.segments) {
     const TrackPlan* const sensor = SensorOn(plan, segment);
@@ -50,10 +61,11 @@ void BodyPositions::Apply(const BodyPlan& plan) {
     }
     const auto old = Find(markers_, sensor->sensor_uid);
     const bool stays = old != markers_.end() && old->segment == segment;
-    markers.push_back({.sensor_uid = sensor->sensor_uid,
-                       .segment = segment,
-                       .track = stays ? std::move(old->track)
-                                      : std::make_unique<MarkerTrack>(config_.markers.filter)});
+    markers.push_back(
+        {.sensor_uid = sensor->sensor_uid,
+         .segment = segment,
+         .track = stays ? std::move(old->track)
+                        : std::make_unique<MarkerTrack>(config_.markers.filter, config_.lag_s)});
   }
   coils_ = std::move(coils);
   markers_ = std::move(markers);
@@ -79,6 +91,11 @@ std::optional<SegmentPosition> BodyPositions::Track(const sensing::MargSample& s
       state.position_reference = PositionReference::kSensor;
       state.position_from = *config_.coils.source;
     }
+    if (const auto& lagged = coil->track->lagged()) {
+      FillLagged(*lagged, "coils, lagged", state);
+      lagged_.position_reference = PositionReference::kSensor;
+      lagged_.position_from = *config_.coils.source;
+    }
   }
   if (const auto marker = Find(markers_, sample.sensor_uid); marker != markers_.end()) {
     std::optional<Eigen::Quaterniond> q_earth_sensor;
@@ -90,11 +107,34 @@ std::optional<SegmentPosition> BodyPositions::Track(const sensing::MargSample& s
       state.position_reference = PositionReference::kEarth;
       state.position_from = state.segment;
     }
+    if (const auto& lagged = marker->track->lagged()) {
+      FillLagged(*lagged, "marker, lagged", state);
+      lagged_.position_reference = PositionReference::kEarth;
+      lagged_.position_from = state.segment;
+    }
   }
   return position;
 }
 
+void BodyPositions::FillLagged(const LaggedPosition& from, std::string_view filter,
+                               const body::SegmentState& now) {
+  has_lagged_ = true;
+  lagged_.body_id = now.body_id;
+  lagged_.segment = now.segment;
+  lagged_.slot = body::kLaggedSlot;
+  lagged_.sensor_uid = now.sensor_uid;
+  lagged_.sequence = now.sequence;
+  lagged_.verdict = now.verdict;
+  lagged_.started = true;
+  lagged_.measured_at = from.measured_at;
+  lagged_.stages = now.stages;
+  lagged_.q_earth_sensor = math::Canonical(from.q_earth_sensor);
+  lagged_.filter = filter;
+  Put(from.position, lagged_);
+}
+
 void BodyPositions::Update(const sensing::MargSample& sample, body::SegmentState& state) {
+  has_lagged_ = false;
   state.has_position = false;
   state.position_fill = FillKind::kNone;
   if (!IsUsed(state.verdict) || sample.Has(sensing::kProbe)) {
@@ -105,15 +145,9 @@ void BodyPositions::Update(const sensing::MargSample& sample, body::SegmentState
     source_->q_earth_sensor = state.q_earth_sensor;
     source_->started = state.started;
   }
-  const std::optional<SegmentPosition> position = Track(sample, state);
-  if (!position) {
-    return;
+  if (const std::optional<SegmentPosition> position = Track(sample, state)) {
+    Put(*position, state);
   }
-  state.has_position = true;
-  state.position_fill = position->fill;
-  state.p_earth_sensor_m = position->p_earth_sensor_m.cast<float>();
-  state.v_earth_sensor_m_s = position->v_earth_sensor_m_s.cast<float>();
-  state.cov_position_m2 = position->cov_position_m2.cast<float>();
 }
 
 }  // namespace limbcast::fusion

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "common/body/segment_state.hpp"
@@ -20,7 +21,9 @@ namespace limbcast::fusion {
 class BodyPositions {
  public:
   /// `config` is valid and outlives it.
-  explicit BodyPositions(const PositionConfig& config) : config_(config) {}
+  explicit BodyPositions(const PositionConfig& config) : config_(config) {
+    lagged_.filter.reserve(16);  // bound of the wire type: no allocation later
+  }
 
   /// Tracks of sensors that stay where they are go on.
   void Apply(const BodyPlan& plan);
@@ -30,6 +33,10 @@ class BodyPositions {
   /// After the sensor's orientation filter had `sample` and filled `state` (slot 0): fills in the
   /// position, or that there is none. A segment with both has the marker's position.
   void Update(const sensing::MargSample& sample, body::SegmentState& state);
+
+  /// What the last Update made known of an earlier time: a state of slot 2, or null. Its
+  /// orientation is that of the position filter; rates and acceleration are not known.
+  [[nodiscard]] body::SegmentState* lagged() { return has_lagged_ ? &lagged_ : nullptr; }
 
   [[nodiscard]] bool empty() const { return coils_.empty() && markers_.empty(); }
 
@@ -52,11 +59,15 @@ class BodyPositions {
 
   [[nodiscard]] std::optional<SegmentPosition> Track(const sensing::MargSample& sample,
                                                      body::SegmentState& state);
+  void FillLagged(const LaggedPosition& from, std::string_view filter,
+                  const body::SegmentState& now);
 
   const PositionConfig& config_;
   std::optional<Source> source_;
   std::vector<Coil> coils_;
   std::vector<Marker> markers_;
+  body::SegmentState lagged_;
+  bool has_lagged_ = false;
 };
 
 }  // namespace limbcast::fusion

@@ -1,5 +1,6 @@
 #include "services/fusion/coil_track.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -31,12 +32,48 @@ Eigen::Vector3d OrNaN(const Eigen::Vector3f& reading, bool there) {
 
 }  // namespace
 
-CoilTrack::CoilTrack(const CoilAidConfig& config)
-    : current_a_(config.current_a), filter_(MakeValid(config.filter)) {}
+CoilTrack::Lag::Lag(double lag_s)
+    : smoother(lag_s, kHighestLagRate_hz),
+      axes(static_cast<std::size_t>(std::ceil(lag_s * kHighestLagRate_hz)) + 2) {}
+
+CoilTrack::CoilTrack(const CoilAidConfig& config, double lag_s)
+    : current_a_(config.current_a), filter_(MakeValid(config.filter)) {
+  if (lag_s > 0.0) {
+    lag_.emplace(lag_s);
+  }
+}
+
+void CoilTrack::Look(Time measured_at, const Eigen::Quaterniond& q_earth_source) {
+  std::vector<Axes>& axes = lag_->axes;
+  lag_->newest = (lag_->newest + 1) % axes.size();
+  axes[lag_->newest] = {.at = measured_at, .q_earth_source = q_earth_source};
+  if (!filter_.valid()) {
+    lag_->smoother.Clear();
+    return;
+  }
+  filters::CoilEstimate estimate;
+  if (!lag_->smoother.Update(filter_.filter(), measured_at, estimate) || !estimate.valid) {
+    return;
+  }
+  const auto then = std::find_if(axes.begin(), axes.end(),
+                                 [&](const Axes& one) { return one.at == estimate.measured_at; });
+  if (then == axes.end()) {
+    return;
+  }
+  const Eigen::Quaterniond& q = then->q_earth_source;
+  lagged_ = LaggedPosition{.measured_at = estimate.measured_at,
+                           .q_earth_sensor = q * estimate.q_sensor_emitter.conjugate(),
+                           .position = {.p_earth_sensor_m = q * estimate.p_emitter_sensor_m,
+                                        .v_earth_sensor_m_s = q * estimate.v_emitter_sensor_m_s,
+                                        .cov_position_m2 = estimate.sigma_m * estimate.sigma_m /
+                                                           3.0 * Eigen::Matrix3d::Identity(),
+                                        .fill = FillKind::kInertialSmoothed}};
+}
 
 std::optional<SegmentPosition> CoilTrack::Update(const sensing::MargSample& sample,
                                                  const sensing::MargSample& source,
                                                  const Eigen::Quaterniond& q_earth_source) {
+  lagged_.reset();
   const double apart_s = ToSeconds(source.measured_at - sample.measured_at);
   const bool together = std::abs(apart_s) <= kMostApart_s;
   const bool sensor_there = (sample.flags & kInertialMissing) == 0;
@@ -52,6 +89,9 @@ std::optional<SegmentPosition> CoilTrack::Update(const sensing::MargSample& samp
   frame.emitter_accel_m_s2 = OrNaN(source.accel_m_s2, source_there);
   frame.drive = sensing::CoilDriveOf(sample.flags, current_a_);
   const filters::CoilUpdateReport report = filter_.Update(frame);
+  if (lag_ && report.verdict != filters::CoilFrameVerdict::kRejectedOutOfOrder) {
+    Look(frame.measured_at, q_earth_source);
+  }
   if (!filter_.valid() || report.verdict == filters::CoilFrameVerdict::kRejectedOutOfOrder) {
     return std::nullopt;
   }

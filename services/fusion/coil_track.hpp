@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "common/filters/position/coil_both_sides.hpp"
+#include "common/filters/position/coil_smoothing.hpp"
 #include "common/sensing/marg_sample.hpp"
 #include "services/fusion/position_config.hpp"
 #include "services/fusion/segment_position.hpp"
@@ -18,8 +21,12 @@ class CoilTrack {
   /// The source's newest sample may be this much older or newer than the sensor's.
   static constexpr double kMostApart_s = 0.025;
 
+  /// The smoothed position is for samples that do not come faster.
+  static constexpr double kHighestLagRate_hz = 200.0;
+
   /// @param config  valid.
-  explicit CoilTrack(const CoilAidConfig& config);
+  /// @param lag_s   of the smoothed position; 0 = none.
+  explicit CoilTrack(const CoilAidConfig& config, double lag_s = 0.0);
 
   /// @param source          the newest sample of the source's sensor.
   /// @param q_earth_source  of that sensor by its orientation filter: the axes in which the result
@@ -30,11 +37,29 @@ class CoilTrack {
                                                       const sensing::MargSample& source,
                                                       const Eigen::Quaterniond& q_earth_source);
 
+  /// What the last Update made known of an earlier time, if anything.
+  [[nodiscard]] const std::optional<LaggedPosition>& lagged() const { return lagged_; }
+
   [[nodiscard]] const filters::CoilBothSides& filter() const { return filter_; }
 
  private:
+  // The axes of results at one time.
+  struct Axes {
+    Time at{};
+    Eigen::Quaterniond q_earth_source = Eigen::Quaterniond::Identity();
+  };
+  struct Lag {
+    explicit Lag(double lag_s);
+    filters::CoilFixedLag smoother;
+    std::vector<Axes> axes;  // ring
+    std::size_t newest = 0;
+  };
+  void Look(Time measured_at, const Eigen::Quaterniond& q_earth_source);
+
   double current_a_;
   filters::CoilBothSides filter_;
+  std::optional<Lag> lag_;
+  std::optional<LaggedPosition> lagged_;
 };
 
 }  // namespace limbcast::fusion

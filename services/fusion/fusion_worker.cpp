@@ -92,8 +92,12 @@ void FusionWorker::FinishRound() {
     const InRound& in_round = round_[i];
     const SensorTrack::Output output = in_round.tracked->track.Finish();
     const auto& sample = std::get<sensing::MargSample>(in_round.item.work);
-    AddPosition(in_round.tracked->body_id, sample, output);
+    body::SegmentState* const lagged = AddPosition(in_round.tracked->body_id, sample, output);
     Publish(output, sample.published_at, in_round.item.reception, in_round.taken_at);
+    if (lagged != nullptr) {
+      lagged->stages = output.states.front().stages;
+      publisher_.Write(*lagged);
+    }
   }
   round_size_ = 0;
 }
@@ -114,12 +118,15 @@ void FusionWorker::Handle(const sensing::MarkerPosition& marker, const Reception
 }
 
 // In the order of the queue, which is the same for any number of workers.
-void FusionWorker::AddPosition(BodyId body_id, const sensing::MargSample& sample,
-                               const SensorTrack::Output& output) {
-  if (const auto body = positions_.find(body_id); body != positions_.end()) {
-    body->second.Update(sample, output.states.front());
-    counters_.AddPosition(output.states.front().has_position);
+body::SegmentState* FusionWorker::AddPosition(BodyId body_id, const sensing::MargSample& sample,
+                                              const SensorTrack::Output& output) {
+  const auto body = positions_.find(body_id);
+  if (body == positions_.end()) {
+    return nullptr;
   }
+  body->second.Update(sample, output.states.front());
+  counters_.AddPosition(output.states.front().has_position);
+  return body->second.lagged();
 }
 
 FusionWorker::Tracked* FusionWorker::Find(SensorUid sensor_uid) {
@@ -205,8 +212,11 @@ void FusionWorker::DisposeAbsent(BodyId body_id, const BodyPlan& plan) {
     const bool slot_0_ends = successor == plan.tracks.end();
     const bool slot_1_ends =
         tracked.track.has_beside() && (slot_0_ends || successor->filters.beside.empty());
-    for (const std::uint8_t slot : {std::uint8_t{0}, std::uint8_t{1}}) {
-      if (slot == 0 ? slot_0_ends : slot_1_ends) {
+    const bool lagged_ends = position_config_.lag_s > 0.0 && slot_0_ends;
+    for (const auto& [slot, ends] : {std::pair{std::uint8_t{0}, slot_0_ends},
+                                     {std::uint8_t{1}, slot_1_ends},
+                                     {body::kLaggedSlot, lagged_ends}}) {
+      if (ends) {
         body::SegmentState key;
         key.body_id = body_id;
         key.segment = segment;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "common/filters/position/fixed_lag_position.hpp"
 #include "common/filters/position/optical_inertial_filter.hpp"
 #include "common/sensing/marg_sample.hpp"
 #include "common/sensing/position_samples.hpp"
@@ -20,7 +21,8 @@ class MarkerTrack {
   static constexpr double kLeastCertain_m = 0.5;
 
   /// @param config  valid.
-  explicit MarkerTrack(const filters::OpticalInertialConfig& config) : filter_(config) {}
+  /// @param lag_s   of the smoothed position; 0 = none.
+  explicit MarkerTrack(const filters::OpticalInertialConfig& config, double lag_s = 0.0);
 
   void OnMarker(const sensing::MarkerPosition& marker) {
     static_cast<void>(filter_.AddMarker(marker));
@@ -31,10 +33,17 @@ class MarkerTrack {
   [[nodiscard]] std::optional<SegmentPosition> Update(
       const sensing::MargSample& sample, const std::optional<Eigen::Quaterniond>& q_earth_sensor);
 
+  /// What the last Update made known of an earlier time, if anything.
+  [[nodiscard]] const std::optional<LaggedPosition>& lagged() const { return lagged_; }
+
   [[nodiscard]] const filters::OpticalInertialFilter& filter() const { return filter_; }
 
  private:
+  void Look(const filters::OpticalEpoch& epoch);
+
   filters::OpticalInertialFilter filter_;
+  std::optional<filters::FixedLagPosition> lag_;
+  std::optional<LaggedPosition> lagged_;
 };
 
 }  // namespace limbcast::fusion

@@ -13,6 +13,7 @@ namespace {
 constexpr double kTeslaPerNanotesla = 1e-9;
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr std::size_t kMaxName = 64;
+constexpr double kMostLag_s = 2.0;
 
 double ReadNanotesla(const config::Section& section, std::string_view key, double tesla, double min,
                      double max) {
@@ -47,6 +48,7 @@ filters::CoilInertialConfig CoilAidConfig::DefaultFilter() {
 
 PositionConfig ReadPositionConfig(const config::Section& fusion) {
   PositionConfig config;
+  config.lag_s = fusion.Read("position_lag_s", config.lag_s, 0.0, kMostLag_s);
   const config::Section coils = fusion.Get("coils");
   if (const std::string name = coils.Read("source", "", kMaxName); !name.empty()) {
     config.coils.source = body::ParseSegment(name);
@@ -98,6 +100,10 @@ Status Validate(const PositionConfig& config) {
   valid = valid ? wrap("fusion.markers", filters::Validate(config.markers.filter)) : valid;
   if (!valid) {
     return valid;
+  }
+  if (!(config.lag_s >= 0.0 && config.lag_s <= kMostLag_s)) {
+    return Error{ErrorCode::kInvalidArgument,
+                 fmt::format("fusion.position_lag_s must be in [0, 2], is {}", config.lag_s)};
   }
   if (!(config.coils.current_a >= 0.01 && config.coils.current_a <= 20.0)) {
     return Error{

@@ -39,9 +39,13 @@ struct MarkerAidConfig {
 struct PositionConfig {
   CoilAidConfig coils;
   MarkerAidConfig markers;
+  /// Key fusion.position_lag_s: positions are published a second time as slot 2, smoothed by what
+  /// came in so many seconds after them. 0 = not. Range: [0, 2].
+  double lag_s = 0.0;
 };
 
-/// Reads [fusion.coils] and [fusion.markers]; refusals are remembered in the section's file.
+/// Reads [fusion.coils], [fusion.markers] and the lag; refusals are remembered in the section's
+/// file.
 [[nodiscard]] PositionConfig ReadPositionConfig(const config::Section& fusion);
 
 [[nodiscard]] Status Validate(const PositionConfig& config);

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "common/base/position_kind.hpp"
+#include "common/base/time.hpp"
 
 namespace limbcast::fusion {
 
@@ -12,6 +13,13 @@ struct SegmentPosition {
   Eigen::Vector3d v_earth_sensor_m_s = Eigen::Vector3d::Zero();
   Eigen::Matrix3d cov_position_m2 = Eigen::Matrix3d::Zero();
   FillKind fill = FillKind::kNone;
+};
+
+/// Where it had it some time ago, by all that has come since.
+struct LaggedPosition {
+  Time measured_at{};
+  Eigen::Quaterniond q_earth_sensor = Eigen::Quaterniond::Identity();
+  SegmentPosition position;
 };
 
 }  // namespace limbcast::fusion

@@ -22,12 +22,29 @@ namespace limbcast::test_support {
 struct PositionFigure {
   double rms_m = 0.0;
   double max_m = 0.0;
-  double sigma_m = 0.0;   ///< RMS of what the filter says, 3-D
-  int count = 0;          ///< scored
-  int expected = 0;       ///< samples in the scored time
-  double first_s = -1.0;  ///< when there was a position first
+  double sigma_m = 0.0;       ///< RMS of what the filter says, 3-D
+  int count = 0;              ///< scored
+  int expected = 0;           ///< samples in the scored time
+  double first_s = -1.0;      ///< when there was a position first
+  double lagged_rms_m = 0.0;  ///< of what is said of earlier times
+  int lagged_count = 0;
 };
 using PositionFigures = std::map<std::pair<std::uint32_t, body::Segment>, PositionFigure>;
+
+/// Error of a position against the truth of its instant; `off` turns the orientations given.
+inline double PositionError_m(const body::SegmentState& state, const body::SegmentTruth& truth,
+                              const body::SegmentTruth* source, const Eigen::Quaterniond& off) {
+  const Eigen::Vector3d p_m = state.p_earth_sensor_m.cast<double>();
+  if (state.position_reference != PositionReference::kSensor) {
+    return (p_m - truth.p_earth_sensor_m).norm();
+  }
+  return (off.conjugate() * p_m - (truth.p_earth_sensor_m - source->p_earth_sensor_m)).norm();
+}
+
+inline void AddTo(double& rms, int& count, double value) {
+  const double n = count++;
+  rms = std::sqrt((n * rms * rms + value * value) / (n + 1.0));
+}
 
 /// Simulator, pulse extraction and position tracks without bus and processes; orientations are the
 /// truth, `heading_error_rad` off. Scored from `score_from_s` on; the tracks begin to hear at
@@ -51,6 +68,7 @@ inline PositionFigures RunPositions(const gateway::SimulatorConfig& simulator,
     body->Apply(plan);
   }
   PositionFigures figures;
+  std::map<Time, std::map<std::pair<std::uint32_t, body::Segment>, body::SegmentTruth>> truths;
   gateway::Batch batch;
   const Eigen::Quaterniond off = math::ExpSO3({0.0, 0.0, heading_error_rad});
   const auto ticks = static_cast<int>(seconds * simulator.rate_hz);
@@ -77,7 +95,9 @@ inline PositionFigures RunPositions(const gateway::SimulatorConfig& simulator,
       state.started = true;
       state.measured_at = truth.measured_at;
       state.q_earth_sensor = off * truth.q_earth_sensor;
-      bodies.at(truth.body_id.value)->Update(batch.marg[i], state);
+      fusion::BodyPositions& body = *bodies.at(truth.body_id.value);
+      truths[truth.measured_at][{truth.body_id.value, truth.segment}] = truth;
+      body.Update(batch.marg[i], state);
       const auto& named = config.coils.sensors;
       const auto& marked = config.markers.segments;
       const bool coil = config.coils.source &&
@@ -94,19 +114,20 @@ inline PositionFigures RunPositions(const gateway::SimulatorConfig& simulator,
         continue;
       }
       ++figure.expected;
+      if (const body::SegmentState* const lagged = body.lagged()) {
+        const auto& then = truths.at(lagged->measured_at);
+        const body::SegmentTruth* const its_source =
+            config.coils.source ? &then.at({truth.body_id.value, *config.coils.source}) : nullptr;
+        AddTo(figure.lagged_rms_m, figure.lagged_count,
+              PositionError_m(*lagged, then.at({truth.body_id.value, truth.segment}), its_source,
+                              off));
+      }
       if (!state.has_position) {
         continue;
       }
-      const Eigen::Vector3d p_m = state.p_earth_sensor_m.cast<double>();
-      double error_m = (p_m - truth.p_earth_sensor_m).norm();
-      if (state.position_reference == PositionReference::kSensor) {
-        const Eigen::Quaterniond q_source_earth = source->q_earth_sensor.conjugate();
-        error_m = (q_source_earth *
-                   (off.conjugate() * p_m - (truth.p_earth_sensor_m - source->p_earth_sensor_m)))
-                      .norm();
-      }
-      const double n = figure.count++;
-      figure.rms_m = std::sqrt((n * figure.rms_m * figure.rms_m + error_m * error_m) / (n + 1.0));
+      const double error_m = PositionError_m(state, truth, source, off);
+      const double n = figure.count;
+      AddTo(figure.rms_m, figure.count, error_m);
       figure.sigma_m = std::sqrt((n * figure.sigma_m * figure.sigma_m +
                                   static_cast<double>(state.cov_position_m2.trace())) /
                                  (n + 1.0));

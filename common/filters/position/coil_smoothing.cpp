@@ -23,6 +23,7 @@ CoilEstimate EstimateOf(const CoilInertialState& state, const CoilCovariance& P,
   estimate.valid = valid;
   estimate.p_earth_m = state.p_earth_m;
   estimate.p_emitter_sensor_m = state.p_emitter_sensor_m();
+  estimate.v_emitter_sensor_m_s = state.q_earth_emitter.conjugate() * state.v_earth_m_s;
   estimate.q_sensor_emitter = state.q_sensor_emitter();
   estimate.sigma_m = std::sqrt(P.topLeftCorner<3, 3>().trace());
   const auto cross = P.block<3, 3>(Index::kSensorTheta, Index::kEmitterTheta);

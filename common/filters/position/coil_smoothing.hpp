@@ -15,6 +15,8 @@ struct CoilEstimate {
   bool valid = false;  ///< false: not tracking; the rest is dead reckoning
   Eigen::Vector3d p_emitter_sensor_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d p_earth_m = Eigen::Vector3d::Zero();  ///< the same in the earth frame
+  /// Of the sensor against the source as seen from the earth, in the source's axes.
+  Eigen::Vector3d v_emitter_sensor_m_s = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_sensor_emitter = Eigen::Quaterniond::Identity();
   double sigma_m = 0.0;    ///< √ of the trace of the position's covariance
   double sigma_rad = 0.0;  ///< the same of the relative orientation
@@ -35,6 +37,12 @@ class CoilFixedLag {
   /// Takes what the filter is at after a frame. Returns the estimate of the newest frame that is at
   /// least `lag_s` old; false as long as there is none. Sigmas are those of the forward filter.
   bool Update(const CoilInertialFilter& filter, Time measured_at, CoilEstimate& lagged);
+
+  /// Forgets what it has: the next frame is of another track.
+  void Clear() {
+    window_.Clear();
+    count_ = 0;
+  }
 
  private:
   static constexpr int kOutputs = 12;  // p, v and both attitudes: the first elements of the state

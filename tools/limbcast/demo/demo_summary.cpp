@@ -115,6 +115,7 @@ json PositionErrorJson(const DemoOptions& options, const PositionErrors& positio
   static constexpr std::array kEnds = {Segment::kPelvis, Segment::kRightHand, Segment::kLeftHand,
                                        Segment::kRightFoot, Segment::kLeftFoot};
   return {{"sensors", PositionsJson(positions.sensors(), {})},
+          {"sensors_lagged", PositionsJson(positions.lagged(), {})},
           {"skeleton", PositionsJson(positions.joints(), kEnds)}};
 }
 
@@ -199,8 +200,9 @@ std::string SummaryText(const json& summary) {
                                               number(error["rms"]), number(error["max"])));
   if (const json& positions = summary["position_error_mm"]; positions.is_object()) {
     for (const auto& [kind, errors] : positions.items()) {
-      line("position error", kind == "sensors" ? "of sensors (coils: in the source's axes)"
-                                               : "of the skeleton (limbs: against the pelvis)");
+      line("position error", kind == "sensors"    ? "of sensors (coils: in the source's axes)"
+                             : kind == "skeleton" ? "of the skeleton (limbs: against the pelvis)"
+                                                  : "of sensors, smoothed half a second later");
       for (const auto& [name, e] : errors.items()) {
         line(fmt::format("  {}", name),
              fmt::format("{:.1f} mm RMS, {:.1f} mm at most", number(e["rms"]), number(e["max"])));

@@ -64,6 +64,9 @@ std::vector<std::string> ArgumentsOf(Part part, const DemoOptions& options) {
   } else if (options.coils && part == Part::kFusion) {
     add({"--set", "fusion.coils.source=pelvis"});
   }
+  if ((options.coils || options.markers) && part == Part::kFusion) {
+    add({"--set", "fusion.position_lag_s=0.5"});
+  }
   if (options.markers && part == Part::kGateway) {
     add({"--set", "simulator.cameras.markers=[\"pelvis\"]"});
   } else if (options.markers && part == Part::kFusion) {

@@ -46,6 +46,9 @@ void PipelineModel::On(const body::SegmentTruth& value) {
 }
 
 void PipelineModel::On(const body::SegmentState& value, Time received_at) {
+  if (judge_positions) {
+    positions.AddSegmentState(value);
+  }
   if (value.slot != 0) {
     return;
   }
@@ -54,9 +57,6 @@ void PipelineModel::On(const body::SegmentState& value, Time received_at) {
   ++segment.states;
   segment.last_received_at = received_at;
   errors.AddSegmentState(value);
-  if (judge_positions) {
-    positions.AddSegmentState(value);
-  }
 }
 
 void PipelineModel::Mark() {

@@ -6,7 +6,7 @@
 namespace limbcast::tool {
 namespace {
 
-constexpr std::size_t kMaxTicks = 64;  // what has not come by then never will
+constexpr std::size_t kMaxTicks = 128;  // what has not come by then, lagged ones too, never will
 
 }  // namespace
 
@@ -36,8 +36,13 @@ void PositionErrors::AddTruth(const body::SegmentTruth& truth) {
 }
 
 void PositionErrors::AddSegmentState(const body::SegmentState& state) {
-  if (state.slot == 0 && state.started && IsUsed(state.verdict)) {
+  if (!state.started || !IsUsed(state.verdict)) {
+    return;
+  }
+  if (state.slot == 0) {
     TickAt(state.body_id, state.measured_at).states[state.segment] = state;
+  } else if (state.slot == body::kLaggedSlot) {
+    TickAt(state.body_id, state.measured_at).lagged[state.segment] = state;
   }
 }
 
@@ -56,14 +61,14 @@ void PositionErrors::Add(Summary& summary, double error_m, double sigma_m) {
   ++summary.count;
 }
 
-void PositionErrors::JudgeState(const Tick& tick, const body::SegmentState& state) {
+void PositionErrors::JudgeState(const Tick& tick, const body::SegmentState& state,
+                                Summary& summary) {
   const auto truth = tick.truths.find(state.segment);
   if (!state.has_position || truth == tick.truths.end()) {
     return;
   }
   const Eigen::Vector3d p_m = state.p_earth_sensor_m.cast<double>();
   const double sigma_m = std::sqrt(static_cast<double>(state.cov_position_m2.trace()));
-  Summary& summary = sensors_[{state.body_id, state.segment}];
   if (state.position_reference == PositionReference::kEarth) {
     Add(summary, (p_m - truth->second.p_earth_sensor_m).norm(), sigma_m);
     return;
@@ -86,7 +91,10 @@ void PositionErrors::Judge(BodyId body_id, const Tick& tick) {
     return;
   }
   for (const auto& [segment, state] : tick.states) {
-    JudgeState(tick, state);
+    JudgeState(tick, state, sensors_[{body_id, segment}]);
+  }
+  for (const auto& [segment, state] : tick.lagged) {
+    JudgeState(tick, state, lagged_[{body_id, segment}]);
   }
   if (!tick.skeleton || tick.skeleton->segments.empty() ||
       tick.skeleton->segments.front().segment != body::Segment::kPelvis) {

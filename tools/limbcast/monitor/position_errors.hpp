@@ -35,6 +35,8 @@ class PositionErrors {
   };
   using Key = std::pair<BodyId, body::Segment>;
   [[nodiscard]] const std::map<Key, Summary>& sensors() const { return sensors_; }
+  /// The same sensors, smoothed with a lag.
+  [[nodiscard]] const std::map<Key, Summary>& lagged() const { return lagged_; }
   [[nodiscard]] const std::map<Key, Summary>& joints() const { return joints_; }
 
  private:
@@ -43,16 +45,18 @@ class PositionErrors {
     Time at{};
     std::map<body::Segment, body::SegmentTruth> truths;
     std::map<body::Segment, body::SegmentState> states;
+    std::map<body::Segment, body::SegmentState> lagged;
     std::optional<body::Skeleton> skeleton;
   };
   Tick& TickAt(BodyId body_id, Time at);
   void Judge(BodyId body_id, const Tick& tick);
-  void JudgeState(const Tick& tick, const body::SegmentState& state);
+  static void JudgeState(const Tick& tick, const body::SegmentState& state, Summary& summary);
   static void Add(Summary& summary, double error_m, double sigma_m);
 
   std::optional<Time> count_from_;
   std::map<BodyId, std::deque<Tick>> ticks_;  // by time
   std::map<Key, Summary> sensors_;
+  std::map<Key, Summary> lagged_;
   std::map<Key, Summary> joints_;
 };
 

@@ -27,6 +27,18 @@ TEST(CoilTrackTest, WristsAndShinsOfAWalkerArePlaced) {
   EXPECT_EQ(figures.size(), 4U);
 }
 
+TEST(CoilTrackTest, WhatComesAfterMakesAPositionBetterHalfASecondLater) {
+  PositionConfig config = CoilAid();
+  config.lag_s = 0.5;
+  const auto figures = RunPositions(CoilPeople(), config, 20.0, 6.0, 0.3);
+  for (const auto& [key, figure] : figures) {
+    SCOPED_TRACE(testing::Message() << body::ToString(key.second) << " rms " << figure.rms_m
+                                    << " lagged " << figure.lagged_rms_m);
+    EXPECT_GT(figure.lagged_count, 0.9 * figure.expected);
+    EXPECT_LT(figure.lagged_rms_m, 0.8 * figure.rms_m);
+  }
+}
+
 // A walker is never still; what would begin there would be wrong for a long time.
 TEST(CoilTrackTest, HeardInTheMiddleOfAWalkItWaitsForRest) {
   const auto figures = RunPositions(CoilPeople(), CoilAid(), 30.0, 8.0, 0.0, 8.0);

@@ -112,6 +112,7 @@ TEST(FusionAllocationTest, PositionsAllocateWithTheRosterOnly) {
   FusionConfig config;
   config.position = test_support::CoilAid();
   config.position.markers.segments = {body::Segment::kPelvis};
+  config.position.lag_s = 0.5;
   FusionService service(config, clock, *inside, pool);
   ASSERT_TRUE(service.Start().ok());
   const auto roster = *outside->MakeWriter<roster::RosterEntry>();

@@ -61,6 +61,22 @@ TEST(MarkerTrackTest, GapsGhostsSwapsAndALeadOfTheStampsAreBorne) {
   EXPECT_LT(pelvis.rms_m, 0.02);
 }
 
+TEST(MarkerTrackTest, WhatComesAfterAGapMendsItHalfASecondLater) {
+  gateway::SimulatorConfig simulator = Walker();
+  simulator.cameras.errors.gap_rate_hz = 0.5;
+  simulator.cameras.errors.gap_s = 0.35;
+  PositionConfig config = PelvisMarker();
+  config.markers.filter.lever_arm_z_m = -0.02;
+  config.lag_s = 0.5;
+  const auto figures = RunPositions(simulator, config, 40.0, 10.0);
+  const auto& pelvis = figures.at(kPelvisOfOne);
+  EXPECT_GT(pelvis.lagged_count, 0.98 * pelvis.expected);
+  EXPECT_LT(pelvis.lagged_rms_m, 0.8 * pelvis.rms_m) << pelvis.rms_m;
+
+  config.lag_s = 0.0;
+  EXPECT_EQ(RunPositions(simulator, config, 12.0, 10.0).at(kPelvisOfOne).lagged_count, 0);
+}
+
 TEST(MarkerTrackTest, WithoutOrientationOrMarkersThereIsNoPosition) {
   MarkerTrack track({});
   sensing::MargSample sample;

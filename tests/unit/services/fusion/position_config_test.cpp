@@ -36,11 +36,13 @@ TEST(PositionConfigTest, WithoutSettingsNothingHasAPosition) {
 TEST(PositionConfigTest, ReadsBothTables) {
   Status finished = Ok();
   const PositionConfig config = Read(
-      "[fusion.coils]\nsource = \"pelvis\"\nsensors = [\"left_hand\"]\nsigma_mag_nt = 50\n"
+      "[fusion]\nposition_lag_s = 0.5\n[fusion.coils]\nsource = \"pelvis\"\nsensors = "
+      "[\"left_hand\"]\nsigma_mag_nt = 50\n"
       "[fusion.markers]\nsegments = [\"pelvis\", \"t8\"]\nlever_arm_m = [0, 0.01, 0]\n",
       &finished);
   EXPECT_TRUE(finished) << finished.error().message;
   EXPECT_TRUE(Validate(config));
+  EXPECT_EQ(config.lag_s, 0.5);
   EXPECT_EQ(config.coils.source, body::Segment::kPelvis);
   EXPECT_EQ(config.coils.sensors, std::vector{body::Segment::kLeftHand});
   EXPECT_DOUBLE_EQ(config.coils.filter.sigma_mag_tesla, 50e-9);
@@ -55,6 +57,9 @@ TEST(PositionConfigTest, RefusalsNameThingValueAndLimit) {
   EXPECT_NE(Refusal("[fusion.coils]\nsource = \"pelvis\"\nsensors = [\"pelvis\"]\n")
                 .find("fusion.coils.sensors has pelvis, which carries the source"),
             std::string::npos);
+  EXPECT_NE(
+      Refusal("[fusion]\nposition_lag_s = 3\n").find("position_lag_s must be in [0, 2], is 3"),
+      std::string::npos);
   EXPECT_NE(Refusal("[fusion.markers]\nsegments = [\"t8\", \"t8\"]\n")
                 .find("fusion.markers.segments names t8 twice"),
             std::string::npos);

@@ -10,7 +10,7 @@ namespace {
 using body::Segment;
 
 constexpr Time kStart = TimeFromNanoseconds(1'700'000'000'000'000'000);
-constexpr int kTicks = 200;
+constexpr int kTicks = 300;
 
 Time At(int tick) { return kStart + tick * std::chrono::milliseconds(10); }
 
@@ -63,6 +63,30 @@ TEST(PositionErrorsTest, CoilsAreJudgedInTheAxesOfTheSource) {
   EXPECT_NEAR(wrist.rms_m, 0.01, 1e-6);
   EXPECT_NEAR(wrist.max_m, 0.01, 1e-6);
   EXPECT_NEAR(wrist.sigma_m, 0.02, 1e-6);
+}
+
+TEST(PositionErrorsTest, LaggedStatesAreJudgedApartAndAgainstTheirOwnTime) {
+  constexpr int kLag = 50;
+  PositionErrors errors;
+  errors.CountFrom(kStart);
+  for (int tick = 0; tick < kTicks; ++tick) {
+    errors.AddTruth(Truth(tick, Segment::kPelvis, {0.1 * tick, 0.0, 0.0}));
+    body::SegmentState live = State(tick, Segment::kPelvis);
+    live.has_position = true;
+    live.p_earth_sensor_m.x() = 0.1F * static_cast<float>(tick) + 0.005F;
+    errors.AddSegmentState(live);
+    if (tick >= kLag) {
+      body::SegmentState lagged = State(tick - kLag, Segment::kPelvis);
+      lagged.slot = body::kLaggedSlot;
+      lagged.has_position = true;
+      lagged.p_earth_sensor_m.x() = 0.1F * static_cast<float>(tick - kLag) + 0.001F;
+      errors.AddSegmentState(lagged);
+    }
+  }
+  EXPECT_NEAR(errors.sensors().at({BodyId{1}, Segment::kPelvis}).rms_m, 0.005, 1e-5);
+  const auto& lagged = errors.lagged().at({BodyId{1}, Segment::kPelvis});
+  EXPECT_NEAR(lagged.rms_m, 0.001, 1e-5);
+  EXPECT_GT(lagged.count, 100U);
 }
 
 TEST(PositionErrorsTest, MarkersAreJudgedInTheEarthFrameAndOnlyFromWhenItCounts) {
