@@ -75,6 +75,12 @@ TEST_P(DemoTest, CoilsAndMarkersPlaceWristsShinsAndThePelvis) {
   }
   ASSERT_TRUE(sensors.contains("1.pelvis"));
   EXPECT_LT(sensors["1.pelvis"]["rms"].get<double>(), 20.0);
+  const nlohmann::json& lagged = run.summary["position_error_mm"]["sensors_lagged"];
+  for (const auto& [name, live] : sensors.items()) {
+    ASSERT_TRUE(lagged.contains(name)) << name;
+    EXPECT_GT(lagged[name]["count"].get<int>(), 200) << name;
+    EXPECT_LT(lagged[name]["rms"].get<double>(), live["rms"].get<double>()) << name;
+  }
   const nlohmann::json& skeleton = run.summary["position_error_mm"]["skeleton"];
   for (const char* joint :
        {"1.pelvis", "1.right_hand", "1.left_hand", "1.right_foot", "1.left_foot"}) {

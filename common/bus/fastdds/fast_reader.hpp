@@ -5,8 +5,8 @@
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <map>
 #include <mutex>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -72,14 +72,26 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
     eprosima::fastdds::dds::SampleInfo info;
     while (!closed_ && reader->take_next_sample(&sample_, &info) == Code::RETCODE_OK) {
       if (info.valid_data) {
-        Deliver(info.instance_handle);
-      } else if (info.instance_state == eprosima::fastdds::dds::NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
+        Deliver(info);
+      } else if (IsDisposal(info)) {
         DeliverDisposed(info.instance_handle);
       }
     }
   }
 
-  void Deliver(const Handle& handle) {
+  // The library (2.9) does not see that an instance is disposed of whose writer has gone. Nobody
+  // but an owner that says good-bye unregisters without disposing, and owners only from what they
+  // wrote themselves.
+  [[nodiscard]] bool IsDisposal(const eprosima::fastdds::dds::SampleInfo& info) const {
+    if (info.instance_state != eprosima::fastdds::dds::NOT_ALIVE_NO_WRITERS_INSTANCE_STATE) {
+      return info.instance_state == eprosima::fastdds::dds::NOT_ALIVE_DISPOSED_INSTANCE_STATE;
+    }
+    const auto known = known_.find(info.instance_handle);
+    return known != known_.end() &&
+           (!Topic<T>::kExclusiveOwnership || known->second != info.publication_handle);
+  }
+
+  void Deliver(const eprosima::fastdds::dds::SampleInfo& info) {
     if (sample_.malformed) {
       events_.Malformed("bytes that are no " + std::string(Codec<T>::kTypeName));
       return;
@@ -88,7 +100,7 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
       events_.Malformed(decoded.error().message);
       return;
     }
-    known_.insert(handle);
+    known_.insert_or_assign(info.instance_handle, info.publication_handle);
     events_.Sample();
     if (handler_.on_sample) {
       handler_.on_sample(value_, {.received_at = SystemNow()});
@@ -150,7 +162,8 @@ class FastReader final : public Reader<T>, private eprosima::fastdds::dds::DataR
   bool closed_ = false;
   FastSample<T> sample_;
   T value_;
-  std::set<Handle> known_;  // instances that the handler has seen and that were not disposed
+  // Instances that the handler has seen and that were not disposed of, and who wrote them last.
+  std::map<Handle, Handle> known_;
   DataReader* reader_ = nullptr;
 };
 
