@@ -87,7 +87,11 @@ std::string DomainXml(const BusConfig& config) {
   }
   return "<CycloneDDS><Domain Id=\"any\"><General>" + InterfacesXml(config) + "<AllowMulticast>" +
          multicast +
-         "</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
+         "</AllowMulticast>"
+         // No message of ours is larger. Fast DDS 2.9 ends its process by an assertion now and then
+         // when the writer of a fragmented message dies.
+         "<MaxMessageSize>14720B</MaxMessageSize><FragmentSize>14000B</FragmentSize>"
+         "</General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
          "<MaxAutoParticipantIndex>" +
          std::to_string(kMaxParticipantIndex) + "</MaxAutoParticipantIndex><SPDPInterval>" +
          (loopback ? "200ms" : "2s") + "</SPDPInterval><LeaseDuration>10s</LeaseDuration>" + peers +
