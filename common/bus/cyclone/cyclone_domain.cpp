@@ -70,10 +70,12 @@ Registry& TheRegistry() {
 
 std::string DomainXml(const BusConfig& config) {
   const bool loopback = config.network == NetworkProfile::kLoopback;
-  // "spdp": participants are announced by multicast, nothing else is.
-  const char* multicast = loopback ? "false" : "true";
-  if (config.network == NetworkProfile::kWifi) {
-    multicast = config.peers.empty() ? "spdp" : "false";
+  // "spdp": participants are announced by multicast, nothing else is. Readers that also take data
+  // by multicast end processes on Fast DDS 2.9 that write to two of them (OutputTrafficManager, an
+  // assertion of the library).
+  const char* multicast = loopback ? "false" : "spdp";
+  if (config.network == NetworkProfile::kWifi && !config.peers.empty()) {
+    multicast = "false";
   }
   std::string peers;
   if (loopback) {

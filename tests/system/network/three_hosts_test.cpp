@@ -208,7 +208,9 @@ TEST_P(ThreeHostsTest, FourPeopleSurvivePulledCablesAndKilledServices) {
         << ::testing::PrintToString(Identities(*spectator)) << Errors();
   }
   for (auto& [name, service] : services_) {
-    EXPECT_TRUE(service.Stop(8s).clean()) << name << service.Errors();
+    const process::ExitState ended = service.Stop(8s);
+    EXPECT_TRUE(ended.clean()) << name << ", status " << ended.status << ", signal " << ended.signal
+                               << ": " << service.Errors();
   }
 }
 

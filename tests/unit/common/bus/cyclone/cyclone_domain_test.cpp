@@ -28,7 +28,7 @@ TEST(CycloneDomainXmlTest, LanLetsTheLibraryChooseAndCallsTheNamedPeers) {
   const std::string xml = DomainXml(
       {.domain_id = 0, .network = NetworkProfile::kLan, .peers = {"10.0.0.7", "10.0.0.8:7412"}});
   EXPECT_FALSE(Contains(xml, "<Interfaces>")) << xml;
-  EXPECT_TRUE(Contains(xml, "<AllowMulticast>true</AllowMulticast>")) << xml;
+  EXPECT_TRUE(Contains(xml, "<AllowMulticast>spdp</AllowMulticast>")) << xml;
   EXPECT_TRUE(Contains(xml, "<Peer address=\"10.0.0.7:7410\"/>")) << xml;
   EXPECT_TRUE(Contains(xml, "<Peer address=\"10.0.0.7:7440\"/>")) << xml;
   EXPECT_FALSE(Contains(xml, "10.0.0.7:7442")) << xml;
