@@ -37,12 +37,7 @@ TEST_P(ChurnTest, NothingIsLeftOfWhoWentHome) {
   EXPECT_TRUE(ProcessesOnDomain(domain).empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Dds, ChurnTest, ::testing::Values("cyclone"),
-                         [](const auto& test) { return std::string(test.param); });
-// A reader on Debian's Fast DDS 2.9.1 aborts ("DataReaderInstance: writer_alive: Assertion
-// `0 == alive_writers.size()'") when the writer of an instance died, its successor disposes of the
-// instance and then writes it again. To be run by hand: --gtest_also_run_disabled_tests.
-INSTANTIATE_TEST_SUITE_P(DISABLED_FastDds, ChurnTest, ::testing::Values("fast", "mixed"),
+INSTANTIATE_TEST_SUITE_P(Dds, ChurnTest, ::testing::Values("cyclone", "fast", "mixed"),
                          [](const auto& test) { return std::string(test.param); });
 
 }  // namespace

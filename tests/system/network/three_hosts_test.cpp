@@ -214,18 +214,11 @@ TEST_P(ThreeHostsTest, FourPeopleSurvivePulledCablesAndKilledServices) {
   }
 }
 
-const auto kName = [](const auto& test) { return std::string(test.param.name); };
-
 INSTANTIATE_TEST_SUITE_P(Dds, ThreeHostsTest,
-                         ::testing::Values(Libraries{"cyclone", "cyclone", "cyclone", "cyclone"}),
-                         kName);
-// Now and then a process on Debian's Fast DDS 2.9.1 aborts in the library when hosts find each
-// other: "OutputTrafficManager: Assertion `it != collection_.end()'" (its issue 3285, mended after
-// 2.9). To be run by hand: --gtest_also_run_disabled_tests.
-INSTANTIATE_TEST_SUITE_P(DISABLED_FastDds, ThreeHostsTest,
-                         ::testing::Values(Libraries{"fast", "fast", "fast", "fast"},
+                         ::testing::Values(Libraries{"cyclone", "cyclone", "cyclone", "cyclone"},
+                                           Libraries{"fast", "fast", "fast", "fast"},
                                            Libraries{"mixed", "cyclone", "fast", "cyclone"}),
-                         kName);
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace limbcast
