@@ -62,7 +62,7 @@ void PositionErrors::Add(Summary& summary, double error_m, double sigma_m) {
 }
 
 void PositionErrors::JudgeState(const Tick& tick, const body::SegmentState& state,
-                                Summary& summary) {
+                                std::map<Key, Summary>& into) {
   const auto truth = tick.truths.find(state.segment);
   if (!state.has_position || truth == tick.truths.end()) {
     return;
@@ -70,7 +70,8 @@ void PositionErrors::JudgeState(const Tick& tick, const body::SegmentState& stat
   const Eigen::Vector3d p_m = state.p_earth_sensor_m.cast<double>();
   const double sigma_m = std::sqrt(static_cast<double>(state.cov_position_m2.trace()));
   if (state.position_reference == PositionReference::kEarth) {
-    Add(summary, (p_m - truth->second.p_earth_sensor_m).norm(), sigma_m);
+    Add(into[{state.body_id, state.segment}], (p_m - truth->second.p_earth_sensor_m).norm(),
+        sigma_m);
     return;
   }
   const auto from = tick.states.find(state.position_from);
@@ -81,7 +82,8 @@ void PositionErrors::JudgeState(const Tick& tick, const body::SegmentState& stat
   const Eigen::Vector3d truth_m =
       from_truth->second.q_earth_sensor.conjugate() *
       (truth->second.p_earth_sensor_m - from_truth->second.p_earth_sensor_m);
-  Add(summary, (from->second.q_earth_sensor.conjugate() * p_m - truth_m).norm(), sigma_m);
+  Add(into[{state.body_id, state.segment}],
+      (from->second.q_earth_sensor.conjugate() * p_m - truth_m).norm(), sigma_m);
 }
 
 void PositionErrors::Judge(BodyId body_id, const Tick& tick) {
@@ -91,10 +93,10 @@ void PositionErrors::Judge(BodyId body_id, const Tick& tick) {
     return;
   }
   for (const auto& [segment, state] : tick.states) {
-    JudgeState(tick, state, sensors_[{body_id, segment}]);
+    JudgeState(tick, state, sensors_);
   }
   for (const auto& [segment, state] : tick.lagged) {
-    JudgeState(tick, state, lagged_[{body_id, segment}]);
+    JudgeState(tick, state, lagged_);
   }
   if (!tick.skeleton || tick.skeleton->segments.empty() ||
       tick.skeleton->segments.front().segment != body::Segment::kPelvis) {

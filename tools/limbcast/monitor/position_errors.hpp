@@ -50,7 +50,8 @@ class PositionErrors {
   };
   Tick& TickAt(BodyId body_id, Time at);
   void Judge(BodyId body_id, const Tick& tick);
-  static void JudgeState(const Tick& tick, const body::SegmentState& state, Summary& summary);
+  static void JudgeState(const Tick& tick, const body::SegmentState& state,
+                         std::map<Key, Summary>& into);
   static void Add(Summary& summary, double error_m, double sigma_m);
 
   std::optional<Time> count_from_;

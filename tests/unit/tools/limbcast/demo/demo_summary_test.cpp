@@ -101,7 +101,7 @@ TEST_F(DemoSummaryTest, PositionsAreSummedUpWhereTheyWereAskedFor) {
   EXPECT_TRUE(SummaryJson({}, model_, outcome_)["position_error_mm"].is_null());
   model_.judge_positions = true;
   model_.positions.CountFrom(kStart);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 200; ++i) {
     body::SegmentTruth truth;
     truth.body_id = BodyId{1};
     truth.measured_at = kStart + i * 10ms;
