@@ -91,11 +91,6 @@ std::optional<SegmentPosition> BodyPositions::Track(const sensing::MargSample& s
       state.position_reference = PositionReference::kSensor;
       state.position_from = *config_.coils.source;
     }
-    if (const auto& lagged = coil->track->lagged()) {
-      FillLagged(*lagged, "coils, lagged", state);
-      lagged_.position_reference = PositionReference::kSensor;
-      lagged_.position_from = *config_.coils.source;
-    }
   }
   if (const auto marker = Find(markers_, sample.sensor_uid); marker != markers_.end()) {
     std::optional<Eigen::Quaterniond> q_earth_sensor;
@@ -107,18 +102,34 @@ std::optional<SegmentPosition> BodyPositions::Track(const sensing::MargSample& s
       state.position_reference = PositionReference::kEarth;
       state.position_from = state.segment;
     }
-    if (const auto& lagged = marker->track->lagged()) {
-      FillLagged(*lagged, "marker, lagged", state);
-      lagged_.position_reference = PositionReference::kEarth;
-      lagged_.position_from = state.segment;
-    }
   }
   return position;
 }
 
+// As Track: a segment with both has the marker's.
+body::SegmentState* BodyPositions::Lagged(const body::SegmentState& now) {
+  body::SegmentState* found = nullptr;
+  if (const auto coil = Find(coils_, now.sensor_uid); coil != coils_.end()) {
+    if (const auto lagged = coil->track->Lagged()) {
+      FillLagged(*lagged, "coils, lagged", now);
+      lagged_.position_reference = PositionReference::kSensor;
+      lagged_.position_from = *config_.coils.source;
+      found = &lagged_;
+    }
+  }
+  if (const auto marker = Find(markers_, now.sensor_uid); marker != markers_.end()) {
+    if (const auto lagged = marker->track->Lagged()) {
+      FillLagged(*lagged, "marker, lagged", now);
+      lagged_.position_reference = PositionReference::kEarth;
+      lagged_.position_from = now.segment;
+      found = &lagged_;
+    }
+  }
+  return found;
+}
+
 void BodyPositions::FillLagged(const LaggedPosition& from, std::string_view filter,
                                const body::SegmentState& now) {
-  has_lagged_ = true;
   lagged_.body_id = now.body_id;
   lagged_.segment = now.segment;
   lagged_.slot = body::kLaggedSlot;
@@ -134,7 +145,6 @@ void BodyPositions::FillLagged(const LaggedPosition& from, std::string_view filt
 }
 
 void BodyPositions::Update(const sensing::MargSample& sample, body::SegmentState& state) {
-  has_lagged_ = false;
   state.has_position = false;
   state.position_fill = FillKind::kNone;
   if (!IsUsed(state.verdict) || sample.Has(sensing::kProbe)) {

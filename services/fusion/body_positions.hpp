@@ -34,9 +34,10 @@ class BodyPositions {
   /// position, or that there is none. A segment with both has the marker's position.
   void Update(const sensing::MargSample& sample, body::SegmentState& state);
 
-  /// What the last Update made known of an earlier time: a state of slot 2, or null. Its
-  /// orientation is that of the position filter; rates and acceleration are not known.
-  [[nodiscard]] body::SegmentState* lagged() { return has_lagged_ ? &lagged_ : nullptr; }
+  /// What the sensor's last Update made known of an earlier time: a state of slot 2, or null. `now`
+  /// is the state that Update filled. Its orientation is that of the position filter; rates and
+  /// acceleration are not known. Apart, because it takes longer than the position itself.
+  [[nodiscard]] body::SegmentState* Lagged(const body::SegmentState& now);
 
   [[nodiscard]] bool empty() const { return coils_.empty() && markers_.empty(); }
 
@@ -67,7 +68,6 @@ class BodyPositions {
   std::vector<Coil> coils_;
   std::vector<Marker> markers_;
   body::SegmentState lagged_;
-  bool has_lagged_ = false;
 };
 
 }  // namespace limbcast::fusion

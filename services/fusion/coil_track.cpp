@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/base/expects.hpp"
 #include "common/math/rotation.hpp"
@@ -43,37 +44,37 @@ CoilTrack::CoilTrack(const CoilAidConfig& config, double lag_s)
   }
 }
 
-void CoilTrack::Look(Time measured_at, const Eigen::Quaterniond& q_earth_source) {
-  std::vector<Axes>& axes = lag_->axes;
-  lag_->newest = (lag_->newest + 1) % axes.size();
-  axes[lag_->newest] = {.at = measured_at, .q_earth_source = q_earth_source};
+std::optional<LaggedPosition> CoilTrack::Lagged() {
+  if (!lag_ || !std::exchange(lag_->pending, false)) {
+    return std::nullopt;
+  }
   if (!filter_.valid()) {
     lag_->smoother.Clear();
-    return;
+    return std::nullopt;
   }
   filters::CoilEstimate estimate;
+  const Time measured_at = lag_->axes[lag_->newest].at;
   if (!lag_->smoother.Update(filter_.filter(), measured_at, estimate) || !estimate.valid) {
-    return;
+    return std::nullopt;
   }
-  const auto then = std::find_if(axes.begin(), axes.end(),
+  const auto then = std::find_if(lag_->axes.begin(), lag_->axes.end(),
                                  [&](const Axes& one) { return one.at == estimate.measured_at; });
-  if (then == axes.end()) {
-    return;
+  if (then == lag_->axes.end()) {
+    return std::nullopt;
   }
   const Eigen::Quaterniond& q = then->q_earth_source;
-  lagged_ = LaggedPosition{.measured_at = estimate.measured_at,
-                           .q_earth_sensor = q * estimate.q_sensor_emitter.conjugate(),
-                           .position = {.p_earth_sensor_m = q * estimate.p_emitter_sensor_m,
-                                        .v_earth_sensor_m_s = q * estimate.v_emitter_sensor_m_s,
-                                        .cov_position_m2 = estimate.sigma_m * estimate.sigma_m /
-                                                           3.0 * Eigen::Matrix3d::Identity(),
-                                        .fill = FillKind::kInertialSmoothed}};
+  return LaggedPosition{.measured_at = estimate.measured_at,
+                        .q_earth_sensor = q * estimate.q_sensor_emitter.conjugate(),
+                        .position = {.p_earth_sensor_m = q * estimate.p_emitter_sensor_m,
+                                     .v_earth_sensor_m_s = q * estimate.v_emitter_sensor_m_s,
+                                     .cov_position_m2 = estimate.sigma_m * estimate.sigma_m / 3.0 *
+                                                        Eigen::Matrix3d::Identity(),
+                                     .fill = FillKind::kInertialSmoothed}};
 }
 
 std::optional<SegmentPosition> CoilTrack::Update(const sensing::MargSample& sample,
                                                  const sensing::MargSample& source,
                                                  const Eigen::Quaterniond& q_earth_source) {
-  lagged_.reset();
   const double apart_s = ToSeconds(source.measured_at - sample.measured_at);
   const bool together = std::abs(apart_s) <= kMostApart_s;
   const bool sensor_there = (sample.flags & kInertialMissing) == 0;
@@ -90,7 +91,9 @@ std::optional<SegmentPosition> CoilTrack::Update(const sensing::MargSample& samp
   frame.drive = sensing::CoilDriveOf(sample.flags, current_a_);
   const filters::CoilUpdateReport report = filter_.Update(frame);
   if (lag_ && report.verdict != filters::CoilFrameVerdict::kRejectedOutOfOrder) {
-    Look(frame.measured_at, q_earth_source);
+    lag_->newest = (lag_->newest + 1) % lag_->axes.size();
+    lag_->axes[lag_->newest] = {.at = frame.measured_at, .q_earth_source = q_earth_source};
+    lag_->pending = true;
   }
   if (!filter_.valid() || report.verdict == filters::CoilFrameVerdict::kRejectedOutOfOrder) {
     return std::nullopt;

@@ -37,8 +37,9 @@ class CoilTrack {
                                                       const sensing::MargSample& source,
                                                       const Eigen::Quaterniond& q_earth_source);
 
-  /// What the last Update made known of an earlier time, if anything.
-  [[nodiscard]] const std::optional<LaggedPosition>& lagged() const { return lagged_; }
+  /// What the last Update made known of an earlier time, if anything. Apart, because it takes
+  /// longer than the position itself; once after each Update.
+  [[nodiscard]] std::optional<LaggedPosition> Lagged();
 
   [[nodiscard]] const filters::CoilBothSides& filter() const { return filter_; }
 
@@ -53,13 +54,12 @@ class CoilTrack {
     filters::CoilFixedLag smoother;
     std::vector<Axes> axes;  // ring
     std::size_t newest = 0;
+    bool pending = false;  // an Update that was not looked at
   };
-  void Look(Time measured_at, const Eigen::Quaterniond& q_earth_source);
 
   double current_a_;
   filters::CoilBothSides filter_;
   std::optional<Lag> lag_;
-  std::optional<LaggedPosition> lagged_;
 };
 
 }  // namespace limbcast::fusion

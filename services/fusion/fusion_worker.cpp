@@ -89,15 +89,14 @@ void FusionWorker::FinishRound() {
   }
   batches_.Run();
   for (std::size_t i = 0; i < round_size_; ++i) {
-    const InRound& in_round = round_[i];
-    const SensorTrack::Output output = in_round.tracked->track.Finish();
+    InRound& in_round = round_[i];
+    in_round.output = in_round.tracked->track.Finish();
     const auto& sample = std::get<sensing::MargSample>(in_round.item.work);
-    body::SegmentState* const lagged = AddPosition(in_round.tracked->body_id, sample, output);
-    Publish(output, sample.published_at, in_round.item.reception, in_round.taken_at);
-    if (lagged != nullptr) {
-      lagged->stages = output.states.front().stages;
-      publisher_.Write(*lagged);
-    }
+    AddPosition(in_round.tracked->body_id, sample, in_round.output);
+    Publish(in_round.output, sample.published_at, in_round.item.reception, in_round.taken_at);
+  }
+  if (position_config_.lag_s > 0.0 && !positions_.empty()) {
+    PublishLagged();
   }
   round_size_ = 0;
 }
@@ -118,15 +117,28 @@ void FusionWorker::Handle(const sensing::MarkerPosition& marker, const Reception
 }
 
 // In the order of the queue, which is the same for any number of workers.
-body::SegmentState* FusionWorker::AddPosition(BodyId body_id, const sensing::MargSample& sample,
-                                              const SensorTrack::Output& output) {
-  const auto body = positions_.find(body_id);
-  if (body == positions_.end()) {
-    return nullptr;
+void FusionWorker::AddPosition(BodyId body_id, const sensing::MargSample& sample,
+                               const SensorTrack::Output& output) {
+  if (const auto body = positions_.find(body_id); body != positions_.end()) {
+    body->second.Update(sample, output.states.front());
+    counters_.AddPosition(output.states.front().has_position);
   }
-  body->second.Update(sample, output.states.front());
-  counters_.AddPosition(output.states.front().has_position);
-  return body->second.lagged();
+}
+
+// What smoothing made known of earlier times, after all that is live is on its way.
+void FusionWorker::PublishLagged() {
+  publisher_.Flush();
+  for (std::size_t i = 0; i < round_size_; ++i) {
+    const body::SegmentState& now = round_[i].output.states.front();
+    const auto body = positions_.find(now.body_id);
+    if (body == positions_.end()) {
+      continue;
+    }
+    if (body::SegmentState* const lagged = body->second.Lagged(now)) {
+      lagged->stages = now.stages;
+      publisher_.Write(*lagged);
+    }
+  }
 }
 
 FusionWorker::Tracked* FusionWorker::Find(SensorUid sensor_uid) {

@@ -88,6 +88,7 @@ class FusionWorker {
     Tracked* tracked = nullptr;
     Item item;
     Time taken_at{};
+    SensorTrack::Output output;
   };
 
   void Take(InRound& next);
@@ -96,9 +97,9 @@ class FusionWorker {
   void Handle(const sensing::MarkerPosition& marker, const Reception& reception);
   void Handle(const std::shared_ptr<const BodyPlan>& plan, const Reception& reception);
   void Handle(const std::shared_ptr<FilterSnapshot>& snapshot, const Reception& reception);
-  // Gives a state of an earlier time that is now known better, or null.
-  body::SegmentState* AddPosition(BodyId body_id, const sensing::MargSample& sample,
-                                  const SensorTrack::Output& output);
+  void AddPosition(BodyId body_id, const sensing::MargSample& sample,
+                   const SensorTrack::Output& output);
+  void PublishLagged();
   [[nodiscard]] Tracked* Find(SensorUid sensor_uid);
   void Publish(const SensorTrack::Output& output, Time published_at, const Reception& reception,
                Time taken_at);

@@ -1,5 +1,7 @@
 #include "services/fusion/marker_track.hpp"
 
+#include <utility>
+
 namespace limbcast::fusion {
 namespace {
 
@@ -22,30 +24,30 @@ MarkerTrack::MarkerTrack(const filters::OpticalInertialConfig& config, double la
 }
 
 // The covariance is that of the marker, which the sensor is centimetres away from.
-void MarkerTrack::Look(const filters::OpticalEpoch& epoch) {
-  lag_->Push(epoch);
+std::optional<LaggedPosition> MarkerTrack::Lagged() {
+  if (!std::exchange(pending_, false)) {
+    return std::nullopt;
+  }
+  lag_->Push(filter_.epoch());
   if (!lag_->has_estimate() || !IsCertain(lag_->estimate().cov_position_m2)) {
-    return;
+    return std::nullopt;
   }
   const filters::PositionEstimate& estimate = lag_->estimate();
-  lagged_ = LaggedPosition{.measured_at = estimate.at,
-                           .q_earth_sensor = estimate.q_earth_sensor,
-                           .position = {.p_earth_sensor_m = estimate.p_earth_sensor_m,
-                                        .v_earth_sensor_m_s = estimate.v_earth_sensor_m_s,
-                                        .cov_position_m2 = estimate.cov_position_m2,
-                                        .fill = estimate.fill}};
+  return LaggedPosition{.measured_at = estimate.at,
+                        .q_earth_sensor = estimate.q_earth_sensor,
+                        .position = {.p_earth_sensor_m = estimate.p_earth_sensor_m,
+                                     .v_earth_sensor_m_s = estimate.v_earth_sensor_m_s,
+                                     .cov_position_m2 = estimate.cov_position_m2,
+                                     .fill = estimate.fill}};
 }
 
 std::optional<SegmentPosition> MarkerTrack::Update(
     const sensing::MargSample& sample, const std::optional<Eigen::Quaterniond>& q_earth_sensor) {
-  lagged_.reset();
   if (!filter_.started() && !q_earth_sensor) {
     return std::nullopt;
   }
   const filters::OpticalStep step = filter_.AddInertial(sample, q_earth_sensor);
-  if (lag_ && step.epoch_closed && filter_.started()) {
-    Look(filter_.epoch());
-  }
+  pending_ = lag_ && step.epoch_closed && filter_.started();
   if (!filter_.started() || !IsUsed(step.verdict)) {
     return std::nullopt;
   }

@@ -33,17 +33,15 @@ class MarkerTrack {
   [[nodiscard]] std::optional<SegmentPosition> Update(
       const sensing::MargSample& sample, const std::optional<Eigen::Quaterniond>& q_earth_sensor);
 
-  /// What the last Update made known of an earlier time, if anything.
-  [[nodiscard]] const std::optional<LaggedPosition>& lagged() const { return lagged_; }
+  /// What the last Update made known of an earlier time, if anything; see CoilTrack.
+  [[nodiscard]] std::optional<LaggedPosition> Lagged();
 
   [[nodiscard]] const filters::OpticalInertialFilter& filter() const { return filter_; }
 
  private:
-  void Look(const filters::OpticalEpoch& epoch);
-
   filters::OpticalInertialFilter filter_;
   std::optional<filters::FixedLagPosition> lag_;
-  std::optional<LaggedPosition> lagged_;
+  bool pending_ = false;  // a closed epoch that was not looked at
 };
 
 }  // namespace limbcast::fusion

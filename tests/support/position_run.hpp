@@ -91,6 +91,7 @@ inline PositionFigures RunPositions(const gateway::SimulatorConfig& simulator,
       body::SegmentState state;
       state.body_id = truth.body_id;
       state.segment = truth.segment;
+      state.sensor_uid = truth.sensor_uid;
       state.verdict = SampleVerdict::kFused;
       state.started = true;
       state.measured_at = truth.measured_at;
@@ -98,6 +99,7 @@ inline PositionFigures RunPositions(const gateway::SimulatorConfig& simulator,
       fusion::BodyPositions& body = *bodies.at(truth.body_id.value);
       truths[truth.measured_at][{truth.body_id.value, truth.segment}] = truth;
       body.Update(batch.marg[i], state);
+      const body::SegmentState* const lagged = body.Lagged(state);
       const auto& named = config.coils.sensors;
       const auto& marked = config.markers.segments;
       const bool coil = config.coils.source &&
@@ -114,7 +116,7 @@ inline PositionFigures RunPositions(const gateway::SimulatorConfig& simulator,
         continue;
       }
       ++figure.expected;
-      if (const body::SegmentState* const lagged = body.lagged()) {
+      if (lagged != nullptr) {
         const auto& then = truths.at(lagged->measured_at);
         const body::SegmentTruth* const its_source =
             config.coils.source ? &then.at({truth.body_id.value, *config.coils.source}) : nullptr;
