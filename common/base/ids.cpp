@@ -1,19 +1,11 @@
 #include "common/base/ids.hpp"
 
+#include "common/base/fnv1a.hpp"
+
 namespace limbcast {
 
 SensorUid MakeSensorUid(std::string_view driver, std::string_view serial) {
-  constexpr std::uint64_t kOffsetBasis = 14695981039346656037ULL;
-  constexpr std::uint64_t kPrime = 1099511628211ULL;
-  std::uint64_t hash = kOffsetBasis;
-  const auto mix = [&hash](std::string_view text) {
-    for (const char c : text) {
-      hash = (hash ^ static_cast<unsigned char>(c)) * kPrime;
-    }
-  };
-  mix(driver);
-  mix(":");
-  mix(serial);
+  const std::uint64_t hash = Fnv1a(Fnv1a(Fnv1a(kFnv1aBasis, driver), ":"), serial);
   return SensorUid{hash == 0 ? 1 : hash};
 }
 

@@ -12,9 +12,6 @@ using namespace bounded_motion;  // NOLINT: the names of one class, shared by it
 
 template <typename Scalar>
 BoundedMotionCore<Scalar>::BoundedMotionCore(const BoundedMotionConfig& config) : config_(config) {
-  state_->b_g.setZero();
-  state_->b_a.setZero();
-  state_->S.setZero();
   state_->covariance_resets = 0;
   state_->slow_steps = 0;
   state_->symmetrised_ago = 0;

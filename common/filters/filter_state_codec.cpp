@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <string>
 
+#include "common/base/fnv1a.hpp"
+
 namespace limbcast::filters {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'L', 'C', 'F', 'I', 'L', 'T', 'E', 'R'};
-
-std::uint64_t Fnv1a(std::span<const std::byte> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const std::byte byte : bytes) {
-    hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3U;
-  }
-  return hash;
-}
 
 Error Refused(std::string_view filter, const std::string& why) {
   return Error{ErrorCode::kCorruptData,
@@ -30,7 +24,7 @@ SavedStateHeader MakeStateHeader(std::string_view filter, std::uint32_t version,
   std::copy_n(filter.begin(), std::min(filter.size(), header.filter.size()), header.filter.begin());
   header.version = version;
   header.size_bytes = static_cast<std::uint32_t>(state.size());
-  header.checksum = Fnv1a(state);
+  header.checksum = Fnv1a(kFnv1aBasis, state);
   return header;
 }
 

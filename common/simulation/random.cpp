@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/base/fnv1a.hpp"
+
 namespace limbcast::simulation {
 namespace {
 
@@ -16,11 +18,7 @@ std::uint64_t SplitMix(std::uint64_t& state) {
 
 // FNV-1a over the seed's and the name's bytes.
 std::uint64_t SeedOf(std::uint64_t seed, std::string_view part) {
-  std::uint64_t hash = 0xCBF29CE484222325U ^ seed;
-  for (const char c : part) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
-  }
-  return hash;
+  return Fnv1a(kFnv1aBasis ^ seed, part);
 }
 
 constexpr std::uint64_t RotateLeft(std::uint64_t x, unsigned by) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/fnv1a.hpp"
+
 namespace limbcast::fusion {
 
 namespace {
@@ -81,12 +83,9 @@ FusionConfig ReadFusionConfig(const config::ConfigFile& file) {
 }
 
 std::uint64_t FilterSettingsNumber(const FusionConfig& config) {
-  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  std::uint64_t hash = kFnv1aBasis;
   const auto add = [&hash](std::string_view text) {
-    for (const char c : text) {
-      hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-    }
-    hash = (hash ^ 0xffU) * 0x100000001b3U;  // an end that no text has
+    hash = Fnv1a(Fnv1a(hash, text), std::uint8_t{0xff});  // an end that no text has
   };
   for (const auto& [filter, settings] : config.filter_settings) {
     add(filter);
