@@ -28,7 +28,8 @@ TEST(FastQosTest, AStateIsKeptForLateJoinersWhoHearOfItWithinATenthOfASecond) {
   EXPECT_EQ(qos.durability().kind, dds::TRANSIENT_LOCAL_DURABILITY_QOS);
   EXPECT_EQ(qos.history().depth, 1);
   EXPECT_LE(qos.reliable_writer_qos().times.heartbeatPeriod.to_ns(), 100'000'000);
-  EXPECT_TRUE(qos.writer_data_lifecycle().autodispose_unregistered_instances);  // when somebody disposes
+  EXPECT_TRUE(
+      qos.writer_data_lifecycle().autodispose_unregistered_instances);  // when somebody disposes
 }
 
 TEST(FastQosTest, AReaderOfStatesKeepsThoseOfSeveralWriters) {
