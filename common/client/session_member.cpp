@@ -6,7 +6,7 @@
 namespace limbcast::client {
 namespace {
 
-constexpr std::uint32_t kTicksAfterRefusal = 4;
+constexpr std::uint32_t kTicksAfterRefusal = 3;
 constexpr auto kGoodBye = std::chrono::milliseconds(300);
 
 }  // namespace

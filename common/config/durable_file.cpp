@@ -38,6 +38,27 @@ Status WriteDurably(const std::filesystem::path& path, const std::string& text) 
   return status;
 }
 
+Status ReplaceDurably(const std::filesystem::path& path, const std::string& text,
+                      const std::filesystem::path& keep_as) {
+  namespace fs = std::filesystem;
+  const auto fail = [&](const char* what, const fs::path& file, const std::error_code& error) {
+    return Error{ErrorCode::kUnavailable,
+                 std::string(what) + " " + file.string() + ": " + error.message()};
+  };
+  const fs::path fresh = path.string() + ".new";
+  if (Status written = WriteDurably(fresh, text); !written) {
+    return written;
+  }
+  std::error_code error;
+  // A copy and not a rename: at no time is there no file under the name itself.
+  if (!keep_as.empty() && fs::exists(path, error) &&
+      !fs::copy_file(path, keep_as, fs::copy_options::overwrite_existing, error)) {
+    return fail("copy to", keep_as, error);
+  }
+  fs::rename(fresh, path, error);
+  return error ? fail("rename to", path, error) : Ok();
+}
+
 Status PrepareFolder(const std::filesystem::path& folder, std::string_view setting) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

@@ -13,7 +13,7 @@ namespace limbcast::filters {
 /// name says `_ref`.
 struct BoundedMotionConfig {
   /// Arithmetic of the core; single precision gives the same mean error and is faster.
-  Precision precision = Precision::kDouble;
+  Precision precision = Precision::kFloat;
 
   /// Rate of the covariance and of all corrections; the attitude is integrated at the sample rate.
   /// Range: [5, 100].

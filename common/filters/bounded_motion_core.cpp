@@ -14,7 +14,6 @@ template <typename Scalar>
 BoundedMotionCore<Scalar>::BoundedMotionCore(const BoundedMotionConfig& config) : config_(config) {
   state_->covariance_resets = 0;
   state_->slow_steps = 0;
-  state_->symmetrised_ago = 0;
   state_->rest_time_s = 0;
   state_->low_started = 0;
   state_->low_g.setZero();
@@ -46,9 +45,16 @@ void BoundedMotionCore<Scalar>::Start(const Eigen::Quaternion<Scalar>& q_earth_s
   }
   step().ResetCovariance();
   if (keep_learned) {
-    state_->P.template block<3, 3>(kBg, kBg) = P_before.template block<3, 3>(kBg, kBg);
-    state_->P.template block<3, 3>(kBa, kBa) = P_before.template block<3, 3>(kBa, kBa);
-    state_->P.template block<9, 9>(kS, kS) = P_before.template block<9, 9>(kS, kS);
+    const auto keep = [&](int first, int count) {
+      for (int column = first; column < first + count; ++column) {
+        for (int row = first; row <= column; ++row) {
+          state_->P(row, column) = P_before(row, column);
+        }
+      }
+    };
+    keep(kBg, 3);
+    keep(kBa, 3);
+    keep(kS, 9);
   }
   AdoptField(mag_in_earth);
 }

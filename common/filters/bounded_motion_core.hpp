@@ -6,6 +6,7 @@
 #include "common/filters/bounded_motion_config.hpp"
 #include "common/filters/lanes.hpp"
 #include "common/filters/lendable.hpp"
+#include "common/filters/packed_symmetric.hpp"
 
 namespace limbcast::filters {
 
@@ -55,7 +56,6 @@ struct BoundedMotionFastState {
 template <typename Scalar>
 struct BoundedMotionState : BoundedMotionFastState<Scalar> {
   static constexpr int kDim = 27;
-  static constexpr int kRows = 28;  // padded, so that every column starts aligned
   using Vector3 = typename BoundedMotionFastState<Scalar>::Vector3;
   using Matrix3 = typename BoundedMotionFastState<Scalar>::Matrix3;
 
@@ -72,11 +72,9 @@ struct BoundedMotionState : BoundedMotionFastState<Scalar> {
   Scalar east_mean, east_scatter2;  // of the field without the carried one, units of m_ref
   Scalar scatter_s;                 // time of motion behind them, at most scatter_time_s
   Scalar covariance_resets;
-  Scalar slow_steps;       // exact up to 2^24 in single precision
-  Scalar symmetrised_ago;  // slow steps
+  Scalar slow_steps;  // exact up to 2^24 in single precision
 
-  // symmetric in its first kDim rows, zero below
-  Eigen::Matrix<Scalar, kRows, kDim, Eigen::DontAlign> P;
+  PackedSymmetric<Scalar, kDim> P;
 };
 
 /// The steps of BoundedMotionCore on a state that belongs to somebody else: the algorithm, for one
@@ -103,6 +101,8 @@ class BoundedMotionStep {
   static constexpr double kRestAfter_s = 1.5;
 
  private:
+  static constexpr int kDim = State::kDim;
+  static constexpr int kRows = 28;  // padded, so that every column starts aligned
   struct Means;
 
   void Integrate(const Input& input);
@@ -115,12 +115,13 @@ class BoundedMotionStep {
   void CorrectField(const Means& means);
   template <int N>
   void CorrectDirect(Mask where, int first, const Eigen::Matrix<Scalar, N, 1>& z, Scalar variance);
-  void Inject(const Eigen::Matrix<Scalar, State::kRows, 1>& dx);
-  void Symmetrise();
+  void Inject(const Eigen::Matrix<Scalar, kRows, 1>& dx);
   void GuardCovariance();
 
   const BoundedMotionConfig& config_;
   State& state_;
+  // Both halves of the covariance, zero below the first kDim rows: only during a slow step.
+  Eigen::Matrix<Scalar, kRows, kDim, Eigen::DontAlign> P_;
 };
 
 /// The bounded-motion multi-rate error-state Kalman filter of one sensor, without time stamps and

@@ -44,8 +44,8 @@ void BoundedMotionStep<Scalar>::CheckField(const Means& means) {
     const Scalar step = static_cast<Scalar>(config_.carried_jump_ref_rts) * mean;
     for (int i = kBm; i < kBm + 3; ++i) {
       const Scalar opened =
-          lanes::Min(Scalar(s.P(i, i) + step * step * T), static_cast<Scalar>(kMaxCarriedVariance));
-      s.P(i, i) = lanes::Select(jumped, opened, s.P(i, i));
+          lanes::Min(Scalar(P_(i, i) + step * step * T), static_cast<Scalar>(kMaxCarriedVariance));
+      P_(i, i) = lanes::Select(jumped, opened, P_(i, i));
     }
   }
 }
@@ -57,16 +57,16 @@ template <int N>
 void BoundedMotionStep<Scalar>::CorrectDirect(Mask where, int first,
                                               const Eigen::Matrix<Scalar, N, 1>& z,
                                               Scalar variance) {
-  auto& P = state_.P;
-  const Eigen::Matrix<Scalar, State::kRows, N> D = P.template middleCols<N>(first);
+  auto& P = P_;
+  const Eigen::Matrix<Scalar, kRows, N> D = P.template middleCols<N>(first);
   Eigen::Matrix<Scalar, N, N> innovation = D.template middleRows<N>(first);
   innovation.diagonal().array() += variance;
   const Eigen::Matrix<Scalar, N, N> inverse = innovation.inverse();
-  Eigen::Matrix<Scalar, State::kRows, N> K = D * inverse;
+  Eigen::Matrix<Scalar, kRows, N> K = D * inverse;
   if (!lanes::All(where)) {
-    K = Choose<Scalar>(where, K, Eigen::Matrix<Scalar, State::kRows, N>::Zero());
+    K = Choose<Scalar>(where, K, Eigen::Matrix<Scalar, kRows, N>::Zero());
   }
-  for (int c = 0; c < State::kDim; ++c) {
+  for (int c = 0; c < kDim; ++c) {
     P.col(c).noalias() -= K * D.row(c).transpose();
   }
   Inject(K * z);
@@ -110,11 +110,11 @@ void BoundedMotionStep<Scalar>::CorrectBounds(Scalar T) {
 template <typename Scalar>
 void BoundedMotionStep<Scalar>::CorrectField(const Means& means) {
   State& s = state_;
-  auto& P = s.P;
+  auto& P = P_;
   const Vector3 z = means.m_b - s.m_0;
   const Matrix3 H_theta = Skew<Scalar>(means.m_b);
   const Matrix3& H_bm = means.R;
-  Eigen::Matrix<Scalar, State::kRows, 3> D =
+  Eigen::Matrix<Scalar, kRows, 3> D =
       P.template middleCols<3>(kTheta) * H_theta.transpose() +
       P.template middleCols<3>(kBm) * H_bm.transpose();
   D.template rightCols<2>() += P.template middleCols<2>(kM0);
@@ -131,12 +131,12 @@ void BoundedMotionStep<Scalar>::CorrectField(const Means& means) {
   const Scalar nis = z.dot(inverse * z);
   const auto gate = static_cast<Scalar>(config_.gate_nis);
   inverse *= lanes::Select(Mask(nis > gate), Scalar(gate / nis), Scalar(1));
-  Eigen::Matrix<Scalar, State::kRows, 3> K_optimal = D * inverse;
+  Eigen::Matrix<Scalar, kRows, 3> K_optimal = D * inverse;
   if (!lanes::All(means.has_m)) {
     K_optimal =
-        Choose<Scalar>(means.has_m, K_optimal, Eigen::Matrix<Scalar, State::kRows, 3>::Zero());
+        Choose<Scalar>(means.has_m, K_optimal, Eigen::Matrix<Scalar, kRows, 3>::Zero());
   }
-  Eigen::Matrix<Scalar, State::kRows, 3> K = K_optimal;
+  Eigen::Matrix<Scalar, kRows, 3> K = K_optimal;
   if (config_.mag_heading_only) {
     constexpr int kMagnetic[6] = {2, kBm, kBm + 1, kBm + 2, kM0, kM0 + 1};
     K.setZero();
@@ -145,13 +145,13 @@ void BoundedMotionStep<Scalar>::CorrectField(const Means& means) {
       P.col(a).noalias() -= K_optimal * D.row(a).transpose();
     }
     for (const int a : kMagnetic) {
-      for (int c = 0; c < State::kDim; ++c) {
+      for (int c = 0; c < kDim; ++c) {
         P(a, c) = P(c, a);
       }
     }
   } else {
     const Eigen::Matrix<Scalar, 2, 2> tilt = P.template topLeftCorner<2, 2>();
-    for (int c = 0; c < State::kDim; ++c) {
+    for (int c = 0; c < kDim; ++c) {
       P.col(c).noalias() -= K_optimal * D.row(c).transpose();
     }
     P.template topLeftCorner<2, 2>() = tilt;
@@ -161,7 +161,7 @@ void BoundedMotionStep<Scalar>::CorrectField(const Means& means) {
 }
 
 template <typename Scalar>
-void BoundedMotionStep<Scalar>::Inject(const Eigen::Matrix<Scalar, State::kRows, 1>& dx) {
+void BoundedMotionStep<Scalar>::Inject(const Eigen::Matrix<Scalar, kRows, 1>& dx) {
   State& s = state_;
   s.q_ES = Exp<Scalar>(dx.template segment<3>(kTheta)) * s.q_ES;
   s.east_mean -= s.m_0.y() * dx(2);  // the mean turns with the heading it was seen in
@@ -182,36 +182,20 @@ void BoundedMotionStep<Scalar>::Inject(const Eigen::Matrix<Scalar, State::kRows,
 }
 
 template <typename Scalar>
-void BoundedMotionStep<Scalar>::Symmetrise() {
-  State& s = state_;
-  s.symmetrised_ago += Scalar(1);
-  const Mask due = s.symmetrised_ago >= Scalar(kSymmetriseEvery);
-  if (!lanes::Any(due)) {
-    return;
-  }
-  for (int c = 1; c < State::kDim; ++c) {
-    for (int r = 0; r < c; ++r) {
-      const Scalar mean = Scalar(0.5) * (s.P(r, c) + s.P(c, r));
-      s.P(r, c) = lanes::Select(due, mean, s.P(r, c));
-      s.P(c, r) = lanes::Select(due, mean, s.P(c, r));
-    }
-  }
-  s.symmetrised_ago = lanes::Select(due, Scalar(0), s.symmetrised_ago);
-}
-
-template <typename Scalar>
 void BoundedMotionStep<Scalar>::GuardCovariance() {
   State& s = state_;
   const auto most = Scalar(std::numeric_limits<lanes::NumberOf<Scalar>>::max());
   Mask sound(true);
-  for (int i = 0; i < State::kDim; ++i) {
+  for (int i = 0; i < kDim; ++i) {
     sound = lanes::Both(sound,
                         lanes::Both(s.P(i, i) >= Scalar(0), s.P(i, i) <= most));  // false for NaN
   }
   if (!lanes::All(sound)) {
     const auto before = s.P;
     ResetCovariance();
-    s.P = Choose<Scalar>(sound, before, s.P);
+    for (std::size_t i = 0; i < s.P.upper.size(); ++i) {
+      s.P.upper[i] = lanes::Select(sound, before.upper[i], s.P.upper[i]);
+    }
     s.covariance_resets += lanes::Select(sound, Scalar(0), Scalar(1));
   }
 }

@@ -11,7 +11,7 @@
 namespace limbcast::filters {
 namespace {
 
-constexpr std::uint32_t kStateVersion = 2;
+constexpr std::uint32_t kStateVersion = 3;
 constexpr double kMagneticUnusedAfter_s = 1.0;
 constexpr double kDisturbedAbove_ref = 0.15;
 constexpr double kSaturatedRateShare = 0.2;
@@ -19,6 +19,17 @@ constexpr int kMostSubSteps = 500;
 constexpr double kAnyHeading_rad2 =
     3.3;                              // π²/3: the variance of a heading that nothing is known of
 constexpr double kLostStart_s = 2.0;  // nobody waits for rest: the mean over motion needs longer
+
+template <typename Scalar>
+Eigen::Matrix3d AttitudeCovariance(const BoundedMotionState<Scalar>& s) {
+  Eigen::Matrix3d P_rad2;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      P_rad2(row, column) = static_cast<double>(s.P(row, column));
+    }
+  }
+  return P_rad2;
+}
 
 }  // namespace
 
@@ -258,7 +269,7 @@ SampleVerdict BoundedMotionFilter<Scalar>::Report() {
   const Eigen::Vector3d late_rad =
       core_.config().sigma_time_s * (q_ES * estimate.w_earth_sensor_in_sensor_rad_s);
   estimate.cov_orientation_rad2 =
-      s.P.template topLeftCorner<3, 3>().template cast<double>() + late_rad * late_rad.transpose();
+      AttitudeCovariance(s) + late_rad * late_rad.transpose();
   estimate.at_rest = core_.at_rest();
   const double mag_absent_s = state_.gate.mag_absent_s();
   const bool has_field = s.has_field > Scalar(0);

@@ -75,7 +75,7 @@ class BoundedMotionFilter final : public OrientationFilter {
     copy(core.b_a);
     copy(core.deviation_hold);
     for (int column = 0; column < 3; ++column) {
-      for (int row = 0; row < 3; ++row) {
+      for (int row = 0; row <= column; ++row) {
         copy(core.P(row, column));
       }
     }

@@ -14,7 +14,7 @@ using namespace bounded_motion;  // NOLINT: the names of one class, shared by it
 template <typename Scalar>
 void BoundedMotionStep<Scalar>::ResetCovariance() {
   const auto square = [](double sigma) { return static_cast<Scalar>(sigma * sigma); };
-  state_.P.setZero();
+  state_.P.SetZero();
   state_.P(0, 0) = state_.P(1, 1) = square(config_.sigma_tilt_start_rad);
   state_.P(2, 2) = square(config_.sigma_heading_start_rad);
   for (int i = 0; i < 3; ++i) {
@@ -138,6 +138,8 @@ void BoundedMotionStep<Scalar>::SlowStep() {
   means.m = Choose<Scalar>(means.has_m, s.sum_m / (s.n_m * s.m_ref), Vector3::Zero());
   means.w2 = s.sum_w2 / s.n;
 
+  s.P.ToFull(P_);
+  P_.row(kDim).setZero();
   const Scalar T = means.T;
   s.p_h += T * s.v_h + (Scalar(0.5) * T * T) * means.f.template head<2>();
   s.v_h += T * means.f.template head<2>();
@@ -153,7 +155,7 @@ void BoundedMotionStep<Scalar>::SlowStep() {
   }
   ClearSums();
   s.slow_steps += Scalar(1);
-  Symmetrise();
+  s.P.FromFull(P_);
   GuardCovariance();
 }
 
@@ -163,7 +165,7 @@ void BoundedMotionStep<Scalar>::SlowStep() {
 template <typename Scalar>
 void BoundedMotionStep<Scalar>::Propagate(const Means& means) {
   State& s = state_;
-  auto& P = s.P;
+  auto& P = P_;
   const Scalar T = means.T;
   const Eigen::Matrix<Scalar, 2, 3> V_theta = -T * Skew<Scalar>(means.f).template topRows<2>();
   const Eigen::Matrix<Scalar, 2, 3> V_ba = -T * means.R.template topRows<2>();

@@ -26,7 +26,6 @@ inline constexpr double kRestLowPass_s = 0.5;
 inline constexpr double kRestGyro_rad_s = 2.0 * 3.14159265358979323846 / 180.0;
 inline constexpr double kRestAccel_m_s2 = 0.5;
 inline constexpr double kMaxCarriedVariance = 4.0;
-inline constexpr int kSymmetriseEvery = 16;
 
 template <typename Scalar>
 inline Eigen::Quaternion<Scalar> Exp(const Eigen::Matrix<Scalar, 3, 1>& phi) {

@@ -12,7 +12,9 @@ class Lendable {
   Lendable() : own_(std::make_unique<T>()), place_(own_.get()) {}
   Lendable(const Lendable& other) : own_(std::make_unique<T>(*other.place_)), place_(own_.get()) {}
   Lendable& operator=(const Lendable& other) {
-    *place_ = *other.place_;
+    if (this != &other) {
+      *place_ = *other.place_;
+    }
     return *this;
   }
   ~Lendable() = default;

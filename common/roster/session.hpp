@@ -27,7 +27,7 @@ struct SessionState {
 
 /// How often a client repeats its accepted JoinRequest, which is how the session host knows that it
 /// is alive (a process that hangs repeats nothing). The host's patience is a few times as long.
-inline constexpr Duration kRenewPeriod = std::chrono::milliseconds(500);
+inline constexpr Duration kRenewPeriod = std::chrono::milliseconds(200);
 
 /// A request to take part (command topic, key client_uid). Repeated as it is while it is to last;
 /// until an answer comes, each repetition has a new request_id.

@@ -39,8 +39,7 @@ void BodyPositions::Apply(const BodyPlan& plan) {
   if (source == nullptr) {
     source_.reset();
   } else if (!source_ || source_->sensor_uid != source->sensor_uid) {
-    source_.emplace();
-    source_->sensor_uid = source->sensor_uid;
+    source_.emplace(source->sensor_uid);
     coils_.clear();  // tracked from another place
   }
   for (const body::Segment segment : config_.coils.sensors) {

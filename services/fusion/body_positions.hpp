@@ -52,6 +52,7 @@ class BodyPositions {
     std::unique_ptr<MarkerTrack> track;
   };
   struct Source {
+    explicit Source(SensorUid uid) : sensor_uid(uid) {}
     SensorUid sensor_uid;
     std::optional<sensing::MargSample> sample;
     Eigen::Quaterniond q_earth_sensor = Eigen::Quaterniond::Identity();

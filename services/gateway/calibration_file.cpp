@@ -177,28 +177,14 @@ Status SaveCalibration(const std::filesystem::path& folder,
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   const std::filesystem::path path = folder / CalibrationFileName(calibration.serial);
-  std::filesystem::path fresh = path;
-  fresh += ".new";
-  if (Status written = config::WriteDurably(fresh, CalibrationToToml(calibration)); !written) {
-    return written;
-  }
-  if (const auto read = LoadFile(fresh, calibration.serial); !read) {
-    std::filesystem::remove(fresh, failed);
+  const std::string text = CalibrationToToml(calibration);
+  if (const auto read = CalibrationFromToml(text, path.string()); !read) {
     return Error{ErrorCode::kUnavailable, read.error().message};
   }
   // Only a good file becomes the old one: a spoiled one would push out the last that can be read.
-  if (LoadFile(path, calibration.serial)) {
-    std::filesystem::path old = path;
-    old += ".old";
-    std::filesystem::copy_file(path, old, std::filesystem::copy_options::overwrite_existing,
-                               failed);
-  }
-  std::filesystem::rename(fresh, path, failed);
-  if (failed) {
-    return Error{ErrorCode::kUnavailable,
-                 "cannot write " + path.string() + ": " + failed.message()};
-  }
-  return Ok();
+  const bool good = LoadFile(path, calibration.serial).ok();
+  const std::string old = good ? path.string() + ".old" : "";
+  return config::ReplaceDurably(path, text, old);
 }
 
 }  // namespace limbcast::gateway

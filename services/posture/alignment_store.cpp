@@ -143,22 +143,10 @@ Status AlignmentStore::Save(const body::BodyDefinition& definition) const {
 
 Status AlignmentStore::Replace(const fs::path& path, const body::BodyDefinition& definition) const {
   std::error_code error;
-  if (fs::exists(path, error)) {
-    body::BodyDefinition scratch = definition;
-    if (!ReadDefinition(path, true, scratch)) {
-      fs::rename(path, path.string() + ".refused", error);
-    }
-  }
-  const fs::path temporary = path.string() + ".new";
-  if (Status written = config::WriteDurably(temporary, Write(definition)); !written) {
-    return written;
-  }
-  fs::rename(temporary, path, error);
-  if (error) {
-    return Error{ErrorCode::kUnavailable,
-                 fmt::format("rename to {}: {}", path.string(), error.message())};
-  }
-  return Ok();
+  body::BodyDefinition scratch = definition;
+  const bool spoiled = fs::exists(path, error) && !ReadDefinition(path, true, scratch);
+  const std::string refused = spoiled ? path.string() + ".refused" : "";
+  return config::ReplaceDurably(path, Write(definition), refused);
 }
 
 Result<bool> AlignmentStore::Load(body::BodyDefinition& definition) const {

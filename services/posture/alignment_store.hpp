@@ -26,8 +26,8 @@ class AlignmentStore {
   /// `<folder>/body_<id>.toml`.
   [[nodiscard]] std::filesystem::path PathOf(BodyId body_id) const;
 
-  /// Replaces the file as a whole (temporary file, fsync, rename): a crash leaves the old or the
-  /// new one. A file that is there and cannot be read is set aside as `<name>.refused` first.
+  /// Replaces the file as a whole (config::ReplaceDurably). One that is there and cannot be read
+  /// is kept as `<name>.refused`.
   [[nodiscard]] Status Save(const body::BodyDefinition& definition) const;
 
   /// Puts what was saved over `definition` (dimensions, sensors, offsets, revision); segments that

@@ -16,6 +16,7 @@ using roster::CommandKind;
 using roster::Role;
 
 constexpr std::size_t kMaxMessage = 255;  // bound of the wire type
+constexpr int kMissedRenewals = 3;
 
 }  // namespace
 
@@ -116,7 +117,8 @@ Status SessionRegistry::JoinPerformer(Session& session, const roster::JoinReques
   const auto found = session.people.find(request.person);
   Person* const before = found == session.people.end() ? nullptr : &found->second;
   const bool here = before != nullptr && before->known.here;
-  if (here && before->alive && before->known.client_uid != request.client_uid) {
+  if (here && before->alive && before->known.client_uid != request.client_uid &&
+      !IsRestart(*before, request, now)) {
     return Refuse(Refusal::kPersonTaken, ErrorCode::kUnavailable,
                   fmt::format("\"{}\" is in session \"{}\" through another client (body {})",
                               request.person, session.known.name, before->known.body_id.value));
@@ -143,6 +145,14 @@ Status SessionRegistry::JoinPerformer(Session& session, const roster::JoinReques
   answer.reply.body_id = person.known.body_id;
   ForgetOldest();  // whose sensors it took may have been released
   return Ok();
+}
+
+// A client that was killed and started again has another uid, and brings the sensors that the person
+// wears. Whoever is still there would have renewed by now.
+bool SessionRegistry::IsRestart(const Person& before, const roster::JoinRequest& request,
+                                Time now) {
+  return request.sensors == before.known.sensors &&
+         now - before.seen_at >= kMissedRenewals * roster::kRenewPeriod;
 }
 
 // Everything has been checked.

@@ -90,8 +90,10 @@ struct RegistryCounters {
 /// A person is known by session and name. Who joins as performer for the first time gets a body id
 /// that no other person of any session ever had, and has it again whenever it returns. A person
 /// whose client falls silent stays in the roster for the grace time, in which any client may carry
-/// it on; then it is released: out of the roster, id remembered. Who is there is never pushed out,
-/// neither is a sensor taken from whoever is alive. Thread-compatible.
+/// it on; then it is released: out of the roster, id remembered. A client that brings the very
+/// sensors of the person is its old client started again, and need not wait for the lease but for
+/// three missed renewals. Who is there is never pushed out, neither is a sensor taken from whoever
+/// is alive. Thread-compatible.
 class SessionRegistry {
  public:
   /// `limits` are valid.
@@ -163,6 +165,8 @@ class SessionRegistry {
   Error Refuse(Refusal refusal, ErrorCode code, std::string message);
   [[nodiscard]] Status JoinPerformer(Session& session, const roster::JoinRequest& request, Time now,
                                      Answer& answer);
+  [[nodiscard]] static bool IsRestart(const Person& before, const roster::JoinRequest& request,
+                                      Time now);
   [[nodiscard]] Status JoinWatcher(Session& session, const roster::JoinRequest& request, Time now,
                                    Answer& answer);
   [[nodiscard]] Status Leave(Session& session, const roster::Command& command, Time now);

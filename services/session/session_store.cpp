@@ -149,20 +149,10 @@ Status SessionStore::Save(const SessionSnapshot& snapshot) {
   if (folder_.empty()) {
     return Ok();
   }
-  const std::string file = path().string();
-  if (Status written = config::WriteDurably(file + ".new", ToToml(snapshot)); !written) {
-    return written;
-  }
-  std::error_code error;
-  if (fs::exists(path(), error)) {
-    fs::rename(path(), file + (refused_ ? ".refused" : ".old"), error);
-  }
-  fs::rename(file + ".new", path(), error);
-  if (error) {
-    return Error{ErrorCode::kUnavailable, fmt::format("rename to {}: {}", file, error.message())};
-  }
-  refused_ = false;
-  return Ok();
+  Status saved = config::ReplaceDurably(path(), ToToml(snapshot),
+                                        path().string() + (refused_ ? ".refused" : ".old"));
+  refused_ = refused_ && !saved;
+  return saved;
 }
 
 Result<SessionStore::Loaded> SessionStore::Load() {
@@ -172,9 +162,7 @@ Result<SessionStore::Loaded> SessionStore::Load() {
     return Loaded{};
   }
   std::error_code error;
-  // Without the file itself, a crash came between the two renames of Save: the new one is whole.
-  const fs::path newest = fs::exists(path(), error) ? path() : fs::path(path().string() + ".new");
-  for (const fs::path& candidate : {newest, fs::path(path().string() + ".old")}) {
+  for (const fs::path& candidate : {path(), fs::path(path().string() + ".old")}) {
     if (!fs::exists(candidate, error)) {
       continue;
     }

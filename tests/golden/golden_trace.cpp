@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "common/base/expects.hpp"
 #include "common/filters/filter_factory.hpp"
@@ -30,7 +31,12 @@ Result<tool::OrientationTrial> LoadInput(const std::filesystem::path& folder) {
 }
 
 Trace Compute(const tool::OrientationTrial& input, const std::string& filter) {
-  auto made = filters::MakeFilter(filter);
+  // In double, whatever the filter is shipped with: rounding is not what a trace is for.
+  const std::vector<filters::Setting> in_double = {{"precision", "double"}};
+  auto made = filters::MakeFilter(filter, in_double);
+  if (!made.ok()) {
+    made = filters::MakeFilter(filter);  // which knows nothing else
+  }
   Expects(made.ok(), "a filter of the factory");
   const tool::OrientationResult result = tool::EvaluateTrial(input, **made);
   Trace trace;

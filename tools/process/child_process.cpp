@@ -45,6 +45,7 @@ std::string ReadAll(int fd) {
 
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
   for (std::string& text : texts) {
     pointers.push_back(text.data());
   }
@@ -79,7 +80,7 @@ std::vector<std::string> Environment(const std::vector<std::string>& added) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   sigset_t none;
   sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
+  pthread_sigmask(SIG_SETMASK, &none, nullptr);
   const int input = open("/dev/null", O_RDONLY | O_CLOEXEC);  // NOLINT(*-vararg): POSIX
   dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);

@@ -15,7 +15,7 @@ using Findings = std::vector<Finding>;
 
 constexpr std::size_t kCalledOnThisHost = 40;  // of Cyclone DDS on loopback, see common/bus
 constexpr std::size_t kCalledByFast = 64;
-constexpr std::int64_t kWantedBuffer_bytes = 4 * 1024 * 1024;
+constexpr std::int64_t kWantedBuffer_bytes = 4LL * 1024 * 1024;
 // The delay of network and scheduler is in the first of them.
 constexpr Duration kBehind = std::chrono::milliseconds(50);
 constexpr Duration kAhead = std::chrono::milliseconds(5);

@@ -55,7 +55,8 @@ BENCHMARK_CAPTURE(BM_FilterUpdate, tqt_float, "tqt", {{"precision", "float"}})
 BENCHMARK_CAPTURE(BM_FilterUpdate, tqt_full, "tqt", {{"form", "full"}})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_FilterUpdate, ckf, "ckf", {})->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BM_FilterUpdate, bmf_double, "bmf", {})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_FilterUpdate, bmf_double, "bmf", {{"precision", "double"}})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_FilterUpdate, bmf_float, "bmf", {{"precision", "float"}})
     ->Unit(benchmark::kMillisecond);
 

@@ -146,7 +146,7 @@ TEST_F(SessionMemberTest, ARefusalIsSaidAndAskedAgainLater) {
   EXPECT_EQ(waited.error().code, ErrorCode::kUnavailable);
   EXPECT_THAT(waited.error().message, HasSubstr("\"Ada\" refused: no room"));
   refusal_.clear();
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 2; ++i) {
     member->Tick();
     EXPECT_EQ(heard_.size(), 1U) << "not as often as one that may come";
   }
@@ -158,7 +158,7 @@ TEST_F(SessionMemberTest, ARefusalIsSaidAndAskedAgainLater) {
   EXPECT_EQ(member->status(0).state, MemberState::kRefused);
   EXPECT_EQ(member->status(0).body_id.value, 1U) << "what it was";
   refusal_.clear();
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 3; ++i) {
     member->Tick();
   }
   EXPECT_EQ(member->status(0).state, MemberState::kMember);

@@ -35,6 +35,43 @@ TEST(DurableFileTest, AFullDiskIsToldAndNotFilledSilently) {
   EXPECT_EQ(refused.error().message, "write /dev/full: No space left on device");
 }
 
+std::string TextOf(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST(DurableFileTest, ReplacingKeepsTheOldOneUnderAnotherName) {
+  const test_support::TemporaryFolder folder;
+  const auto path = folder / "a.toml";
+  ASSERT_TRUE(ReplaceDurably(path, "1", folder / "a.toml.old").ok());
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.toml.old")) << "there was none";
+  ASSERT_TRUE(ReplaceDurably(path, "2", folder / "a.toml.old").ok());
+  ASSERT_TRUE(ReplaceDurably(path, "3", folder / "a.toml.old").ok());
+  EXPECT_EQ(TextOf(path), "3");
+  EXPECT_EQ(TextOf(folder / "a.toml.old"), "2");
+  ASSERT_TRUE(ReplaceDurably(path, "4").ok());
+  EXPECT_EQ(TextOf(path), "4");
+  EXPECT_EQ(TextOf(folder / "a.toml.old"), "2");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.toml.new"));
+}
+
+TEST(DurableFileTest, WhatCannotBeReplacedStaysAsItWas) {
+  const test_support::TemporaryFolder folder;
+  const auto path = folder / "a.toml";
+  ASSERT_TRUE(ReplaceDurably(path, "1").ok());
+  std::filesystem::create_directory(folder / "kept");  // a copy cannot take its place
+  const Status kept = ReplaceDurably(path, "2", folder / "kept");
+  ASSERT_FALSE(kept.ok());
+  EXPECT_EQ(kept.error().code, ErrorCode::kUnavailable);
+  EXPECT_NE(kept.error().message.find("copy to"), std::string::npos) << kept.error().message;
+  EXPECT_EQ(TextOf(path), "1");
+  std::filesystem::remove(folder / "a.toml.new");
+  std::filesystem::create_symlink("/dev/full", folder / "a.toml.new");
+  EXPECT_FALSE(ReplaceDurably(path, "2").ok());
+  EXPECT_EQ(TextOf(path), "1");
+}
+
 TEST(DurableFileTest, AFolderIsMadeOrTheSettingThatNamesItRefused) {
   const test_support::TemporaryFolder folder;
   EXPECT_TRUE(PrepareFolder(folder / "a/b", "x.state_dir").ok());

@@ -80,7 +80,7 @@ TEST_P(BoundedMotionTransitionTest, MatchesWhatTheStepDoesToASmallError) {
   estimate.Start(math::ExpSO3({0.4, -0.3, 1.1}), Eigen::Vector3d(0.0, 0.4, -0.9), false);
   Core truth = estimate;
   InjectError(truth.mutable_state(), index, kH);
-  estimate.mutable_state().P.setZero();
+  estimate.mutable_state().P.SetZero();
   estimate.mutable_state().P(index, index) = 1.0;
 
   for (int i = 0; estimate.state().slow_steps == 0; ++i) {
@@ -92,12 +92,11 @@ TEST_P(BoundedMotionTransitionTest, MatchesWhatTheStepDoesToASmallError) {
       ErrorBetween(truth.state(), estimate.state()) / kH;
   const Eigen::Matrix<double, State::kDim, State::kDim> expected = f * f.transpose();
   const Eigen::Matrix<double, State::kDim, State::kDim> actual =
-      estimate.state().P.topRows<State::kDim>();
+      estimate.state().P.Full();
   // F is of first order in the step T = 10 ms: what it leaves out is g·T²/2 = 5e-4 at the most.
   // design.
   EXPECT_LT((actual - expected).cwiseAbs().maxCoeff(), 1e-3) << "error state " << index << "\n"
                                                              << f.transpose();
-  EXPECT_LT((actual - actual.transpose()).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryErrorState, BoundedMotionTransitionTest, ::testing::Range(0, 27));

@@ -197,7 +197,7 @@ TEST(BoundedMotionFilterTest, TheReportedCovarianceHoldsTheDoubtAboutTime) {
   const Eigen::Matrix3d more =
       doubting.estimate().cov_orientation_rad2 - sure.estimate().cov_orientation_rad2;
   EXPECT_LT((more - late_rad * late_rad.transpose()).norm(), 1e-12);
-  EXPECT_EQ((doubting.core().state().P - sure.core().state().P).norm(), 0.0);
+  EXPECT_EQ((doubting.core().state().P.Full() - sure.core().state().P.Full()).norm(), 0.0);
 }
 
 TEST(BoundedMotionFilterTest, ASavedStateContinuesBitForBit) {

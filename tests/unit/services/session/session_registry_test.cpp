@@ -102,6 +102,25 @@ TEST_F(SessionRegistryTest, APersonIsCarriedByOneClientThatIsAlive) {
   EXPECT_FALSE(Join(Asks(7, "Ada", 11)).accepted) << "the first one is late";
 }
 
+TEST_F(SessionRegistryTest, AClientStartedAgainCarriesItsPersonOnAfterThreeMissedRenewals) {
+  (void)Join(Asks(7, "Ada", 11));
+  Pass(500ms);
+  EXPECT_FALSE(Join(Asks(8, "Ada", 11)).accepted) << "the old one may still be there";
+  EXPECT_TRUE(Join(Asks(7, "Ada", 11)).accepted);
+  Pass(500ms);
+  EXPECT_FALSE(Join(Asks(8, "Ada", 11)).accepted) << "it was";
+  Pass(250ms);
+  EXPECT_FALSE(Join(Asks(8, "Ada", 12)).accepted) << "somebody else of that name";
+  EXPECT_FALSE(Join(AsksBare(8, "Ada")).accepted) << "anybody";
+  (void)registry_.TakeChanges();
+  const roster::JoinReply restarted = Join(Asks(8, "Ada", 11));
+  EXPECT_TRUE(restarted.accepted) << restarted.message;
+  EXPECT_EQ(restarted.body_id.value, 1U);
+  EXPECT_TRUE(registry_.TakeChanges().empty()) << "nobody has to be told";
+  EXPECT_EQ(registry_.counters().vanished, 0U);
+  EXPECT_FALSE(Join(Asks(7, "Ada", 11)).accepted) << "the first one is late";
+}
+
 TEST_F(SessionRegistryTest, WhoVanishesStaysForTheGraceTimeAndReturnsAsTheSameBody) {
   (void)Join(Asks(7, "Ada", 11));
   (void)Join(Asks(8, "Bob", 12));

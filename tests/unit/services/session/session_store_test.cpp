@@ -89,12 +89,6 @@ TEST_F(SessionStoreTest, CutOffAnywhereTheFileBeforeIsTaken) {
   }
 }
 
-TEST_F(SessionStoreTest, ACrashBetweenTheRenamesLosesNothing) {
-  ASSERT_TRUE(store_.Save(snapshot_).ok());
-  fs::rename(store_.path(), store_.path().string() + ".new");
-  EXPECT_EQ(SessionStore(folder_).Load()->snapshot, snapshot_);
-}
-
 TEST_F(SessionStoreTest, ARefusedFileIsNamedAndSetAside) {
   Overwrite("version = 2\n[end]\n");
   const auto refused = store_.Load();
