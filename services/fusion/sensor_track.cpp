@@ -45,11 +45,16 @@ SensorTrack::SensorTrack(BodyId body_id, const TrackPlan& plan, const FilterFact
       filter_(MakeChosen(factory, plan.filters.name)),
       beside_(plan.filters.beside.empty() ? nullptr : MakeChosen(factory, plan.filters.beside)),
       overloads_seen_(plan.overloads) {
-  for (std::size_t slot = 0; slot < states_.size(); ++slot) {
-    states_[slot].body_id = body_id_;
-    states_[slot].slot = static_cast<std::uint8_t>(slot);
-    states_[slot].sensor_uid = plan_.sensor_uid;
-    states_[slot].filter.reserve(16);  // bound of the wire type: no allocation later
+  ProvideSlots(has_beside() ? 2 : 1);
+}
+
+void SensorTrack::ProvideSlots(std::size_t count) {
+  while (states_.size() < count) {
+    SegmentState& state = states_.emplace_back();
+    state.body_id = body_id_;
+    state.slot = static_cast<std::uint8_t>(states_.size() - 1);
+    state.sensor_uid = plan_.sensor_uid;
+    state.filter.reserve(16);  // bound of the wire type: no allocation later
   }
 }
 
@@ -73,6 +78,7 @@ void SensorTrack::Apply(const TrackPlan& plan, const FilterFactory& factory) {
   if (!beside_is_right) {
     beside_ = plan.filters.beside.empty() ? nullptr : MakeChosen(factory, plan.filters.beside);
   }
+  ProvideSlots(has_beside() ? 2 : 1);
 }
 
 // Without an orientation so far there is nothing to hold on to.
@@ -241,7 +247,9 @@ SensorTrack::Output SensorTrack::Answer(const sensing::MargSample& sample, Step 
 
 SensorTrack::Output SensorTrack::Update(const sensing::FusedOrientation& orientation,
                                         const Reception& reception) {
-  SegmentState& state = states_[marg_seen_ ? 1 : 0];
+  const std::size_t slot = marg_seen_ ? 1 : 0;
+  ProvideSlots(slot + 1);
+  SegmentState& state = states_[slot];
   Output output{.states = {&state, std::size_t{marg_seen_ && has_beside() ? 0U : 1U}}};
   Start(state, orientation.sequence, orientation.measured_at, orientation.published_at, reception);
   const auto arrival =

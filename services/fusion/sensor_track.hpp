@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "common/base/time.hpp"
 #include "common/base/verdict.hpp"
@@ -26,7 +26,8 @@ struct Reception {
 };
 
 /// One sensor on one segment: its numbers, its filters, its counters. Each sample gives one state
-/// (two with a filter beside it), used or refused. Thread-compatible; allocates only in Apply.
+/// (two with a filter beside it), used or refused. Thread-compatible; allocates only in Apply, and
+/// once for a sensor that sends samples and orientations.
 class SensorTrack {
  public:
   /// States of one sample, slot 0 first; valid until the next call. `lost` is the change of
@@ -87,6 +88,7 @@ class SensorTrack {
                                   const Reception& reception, std::int64_t& lost);
   [[nodiscard]] SampleVerdict CheckTime(Time measured_at, const Reception& reception) const;
   [[nodiscard]] SampleVerdict CheckOrder(Time measured_at);
+  void ProvideSlots(std::size_t count);
   void TakeIncoming();
   void Judge(const sensing::MargSample& sample, const Reception& reception);
   template <typename Step>
@@ -116,7 +118,7 @@ class SensorTrack {
   bool marg_seen_ = false;
   const sensing::MargSample* begun_ = nullptr;  // between Begin and Finish
   Output output_;                               // of that sample, so far
-  std::array<body::SegmentState, 2> states_;
+  std::vector<body::SegmentState> states_;  // by slot
 };
 
 }  // namespace limbcast::fusion

@@ -17,7 +17,7 @@ void OrientationWindow::Add(Time measured_at, const Eigen::Quaterniond& q) {
     }
   }
   at_[next_] = measured_at;
-  q_[next_] = q;
+  q_[next_] = q.cast<float>();
   next_ = (next_ + 1) % kCapacity;
   count_ = std::min(count_ + 1, kCapacity);
 }
@@ -36,7 +36,7 @@ std::optional<body::OrientationAverage> OrientationWindow::Average() const {
       break;
     }
     oldest = at_[i];
-    within[taken++] = q_[i];
+    within[taken++] = q_[i].cast<double>();
   }
   if (newest - oldest < span_ / 2) {
     return std::nullopt;

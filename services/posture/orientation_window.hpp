@@ -30,7 +30,7 @@ class OrientationWindow {
 
   Duration span_;
   std::array<Time, kCapacity> at_{};
-  std::array<Eigen::Quaterniond, kCapacity> q_;
+  std::array<Eigen::Quaternionf, kCapacity> q_;  // 1e-7 rad is enough, and there are many
   std::size_t next_ = 0;
   std::size_t count_ = 0;
 };
