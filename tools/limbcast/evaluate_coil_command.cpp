@@ -165,7 +165,8 @@ SubCommand AddEvaluateCoil(CLI::App& evaluate) {
       "coil",
       "Errors of the coil tracker: in simulations of the experiments it was published with, on "
       "recorded inertial data under simulated pulses (--data), or over long time and many subjects "
-      "(--hours, --runs); magnetic only, fused forward, with a lag, smoothed.\nExamples:\n"
+      "(--hours, --runs); magnetic only, loosely coupled, fused forward, with a lag, "
+      "smoothed.\nExamples:\n"
       "  limbcast evaluate coil --json /tmp/coil.json\n"
       "  limbcast evaluate coil --data ../shared/data/broad --only 16\n"
       "  limbcast evaluate coil --hours 10 --runs 1000\n"

@@ -13,8 +13,7 @@ namespace {
 // Notation: E earth, S sensor, M emitter.
 
 using Index = CoilInertialIndex;
-constexpr int kBackgroundAfter = 3;   // samples that end a pulse
-constexpr double kCurrentOff = 0.05;  // of what was stated
+constexpr int kBackgroundAfter = 3;  // samples that end a pulse
 constexpr double kBackgroundStep_tesla = 5e-6;
 constexpr double kLeastBackground_tesla = 20e-6;
 constexpr double kMostBackground_tesla = 80e-6;
@@ -50,12 +49,6 @@ bool InertialFinite(const sensing::CoilFrame& frame) {
           (frame.emitter_gyro_rad_s.allFinite() && frame.emitter_accel_m_s2.allFinite()));
 }
 
-// A current that was measured and is not the one that was stated.
-bool IsCurrentOff(const sensing::CoilDrive& drive) {
-  return drive.coil >= 0 && std::isfinite(drive.measured_a) &&
-         !(std::abs(drive.measured_a - drive.current_a) <= kCurrentOff * std::abs(drive.current_a));
-}
-
 }  // namespace
 
 CoilInertialFilter::CoilInertialFilter(const CoilInertialConfig& config)
@@ -77,7 +70,7 @@ CoilUpdateReport CoilInertialFilter::Update(const sensing::CoilFrame& given) {
     return report;
   }
   sensing::CoilFrame frame = given;
-  if (IsCurrentOff(frame.drive) || !std::isfinite(frame.drive.current_a)) {
+  if (IsCurrentWrong(frame.drive)) {
     frame.drive.settled = false;
   }
   double inflation = frame.inertial_saturated ? 30.0 * 30.0 : 1.0;
@@ -311,6 +304,16 @@ bool CoilInertialFilter::FitsWithoutCoil(const sensing::CoilFrame& frame) const 
   Eigen::Matrix3d S = h.H * P_ * h.H.transpose();
   S.diagonal().array() += config_.sigma_mag_tesla * config_.sigma_mag_tesla;
   return nu.dot(S.llt().solve(nu)) <= config_.gate.downweight_above_nis;
+}
+
+UpdateReport CoilInertialFilter::Correct(const SoftGateConfig& gate,
+                                         const Eigen::Matrix<double, 6, 6>& R_noise,
+                                         CoilPoseRecord& record) {
+  const UpdateReport report = SoftUpdate(gate, R_noise, true, P_, record);
+  if (record.fused) {
+    state_ = Plus(state_, record.K * record.nu);
+  }
+  return report;
 }
 
 void CoilInertialFilter::GuardCovariance(CoilUpdateReport& report) {

@@ -8,6 +8,7 @@
 #include "common/base/result.hpp"
 #include "common/filters/position/coil_inertial_config.hpp"
 #include "common/filters/position/coil_inertial_states.hpp"
+#include "common/filters/position/coil_measurement.hpp"
 #include "common/filters/position/coil_motion_solver.hpp"
 #include "common/filters/position/coil_pulse_collector.hpp"
 #include "common/sensing/coil_frame.hpp"
@@ -67,6 +68,16 @@ class CoilInertialFilter {
   [[nodiscard]] int losses() const { return losses_; }
   /// Times that the covariance was rebuilt.
   [[nodiscard]] int rebuilds() const { return rebuilds_; }
+
+  /// For loose coupling (LooseCoilFilter). Takes a pose of the newest frame, `H` and `nu` in
+  /// `record`; records() does not know of it.
+  UpdateReport Correct(const SoftGateConfig& gate, const Eigen::Matrix<double, 6, 6>& R_noise,
+                       CoilPoseRecord& record);
+  /// The same: gives the track up, as when the filter itself finds it lost.
+  void LoseTrack() {
+    CoilUpdateReport report;
+    Lose(report);
+  }
 
   /// From now on the side of a new track is that of the last one.
   void ForgetHalfSpace() { config_.half_space.reset(); }

@@ -1,5 +1,7 @@
 #include "common/filters/position/coil_measurement.hpp"
 
+#include <cmath>
+
 #include "common/math/rotation.hpp"
 
 namespace limbcast::filters {
@@ -8,7 +10,17 @@ namespace {
 using Index = CoilInertialIndex;
 constexpr double kGravity_m_s2 = 9.81;  // design/position.md section 1
 
+constexpr double kCurrentOff = 0.05;  // of what was stated
+
 }  // namespace
+
+bool IsCurrentWrong(const sensing::CoilDrive& drive) {
+  if (!std::isfinite(drive.current_a)) {
+    return true;
+  }
+  return drive.coil >= 0 && std::isfinite(drive.measured_a) &&
+         !(std::abs(drive.measured_a - drive.current_a) <= kCurrentOff * std::abs(drive.current_a));
+}
 
 CoilPrediction PredictCoilSample(const sensing::CoilSource& source, const sensing::CoilDrive& drive,
                                  const CoilInertialState& state) {
@@ -48,6 +60,20 @@ void BackgroundGauge(const CoilInertialState& state, const Eigen::Vector3d& star
   record.nu = start_earth_tesla - state.background_earth_tesla;
   record.H.setZero();
   record.H.middleCols<3>(Index::kBackground).setIdentity();
+}
+
+void PoseOfBurst(const CoilInertialState& state, const Eigen::Vector3d& p_emitter_sensor_m,
+                 const Eigen::Matrix3d& R_sensor_emitter, CoilPoseRecord& record) {
+  const Eigen::Matrix3d R_ME = state.q_earth_emitter.toRotationMatrix().transpose();
+  const Eigen::Matrix3d R_SE = state.q_earth_sensor.toRotationMatrix().transpose();
+  record.nu.head<3>() = p_emitter_sensor_m - R_ME * state.p_earth_m;
+  record.nu.tail<3>() = math::LogSO3(math::QuaternionFromMatrix(R_sensor_emitter) *
+                                     state.q_sensor_emitter().conjugate());
+  record.H.setZero();
+  record.H.block<3, 3>(0, Index::kP) = R_ME;
+  record.H.block<3, 3>(0, Index::kEmitterTheta) = R_ME * math::Skew(state.p_earth_m);
+  record.H.block<3, 3>(3, Index::kSensorTheta) = -R_SE;
+  record.H.block<3, 3>(3, Index::kEmitterTheta) = R_SE;
 }
 
 }  // namespace limbcast::filters

@@ -6,6 +6,10 @@
 
 namespace limbcast::filters {
 
+/// A drive that says nothing of the field: what flowed is not within 5 % of what was stated, or no
+/// current was stated.
+[[nodiscard]] bool IsCurrentWrong(const sensing::CoilDrive& drive);
+
 /// What one magnetometer sample should read, and how that depends on the error state.
 struct CoilPrediction {
   Eigen::Vector3d field_tesla = Eigen::Vector3d::Zero();  ///< y, sensor axes
@@ -33,5 +37,15 @@ void GravityGauge(const CoilInertialState& state, const Eigen::Vector3d& accel_m
 /// The same of the background field: ν = m_start − m_e, H: m_e: I.
 void BackgroundGauge(const CoilInertialState& state, const Eigen::Vector3d& start_earth_tesla,
                      MeasurementRecord<CoilInertialIndex::kAll, 3>& record);
+
+using CoilPoseRecord = MeasurementRecord<CoilInertialIndex::kAll, 6>;
+
+/// A pose that three pulses gave by themselves, as a measurement (loose coupling): position in
+/// emitter axes and left rotation of Ψ, in sensor axes,
+///
+///   p_M = R_mᵀ p ,  Ψ = R_sᵀ R_m :  ν = [p_M,burst − p_M ; Log(Ψ_burst Ψᵀ)]
+///   H: p: [R_mᵀ; 0] ;  θ_s: [0; −R_sᵀ] ;  θ_m: [R_mᵀ [p]×; R_sᵀ]
+void PoseOfBurst(const CoilInertialState& state, const Eigen::Vector3d& p_emitter_sensor_m,
+                 const Eigen::Matrix3d& R_sensor_emitter, CoilPoseRecord& record);
 
 }  // namespace limbcast::filters

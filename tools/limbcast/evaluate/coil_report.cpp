@@ -23,6 +23,10 @@ const char* TextOf(CoilNoise noise) {
                                      : "15 nT, bipolar pulses of 17 + 17 ms, 3 in 600 ms";
 }
 
+nlohmann::json TrackingJson(const CoilTracking& t) {
+  return {{"tracked", t.tracked}, {"losses", t.losses}, {"nees_per_axis", t.nees}};
+}
+
 }  // namespace
 
 std::string CoilTable(std::span<const CoilExperiment> experiments,
@@ -31,9 +35,9 @@ std::string CoilTable(std::span<const CoilExperiment> experiments,
   for (const CoilNoise noise : {CoilNoise::kThesis, CoilNoise::kModern}) {
     text += fmt::format(
         "\n{}; RMS: position in 3-D and distance, mm; orientation, deg\n{:<20} {:>5} | {:^20} | "
-        "{:^20} | {:^20} | {:^20} | {:^11} {:^10} | {:>5} {:>6} {:>5}\n",
-        TextOf(noise), "experiment", "range", "magnetic only", "forward", "lag 0.6 s", "smoothed",
-        "publ. magn.", "publ. fused", "valid", "losses", "NEES");
+        "{:^20} | {:^20} | {:^20} | {:^20} | {:^11} {:^10} | {:>5} {:>6} {:>5} | {:^18}\n",
+        TextOf(noise), "experiment", "range", "magnetic only", "loose", "forward", "lag 0.6 s",
+        "smoothed", "publ. magn.", "publ. fused", "valid", "losses", "NEES", "the same, loose");
     for (const CoilResult& r : results) {
       const CoilExperiment* e = ExperimentOf(experiments, r.experiment);
       if (r.noise != noise) {
@@ -48,7 +52,10 @@ std::string CoilTable(std::span<const CoilExperiment> experiments,
                            : fmt::format(" | {:>5.1f} {:>5.1f} {:>5.1f} {:>4.1f}",
                                          e->published_magnetic_mm, e->published_magnetic_deg,
                                          e->published_fused_mm, e->published_fused_deg);
-      text += fmt::format(" | {:>4.0f}% {:>6} {:>5.1f}\n", 100.0 * r.tracked, r.losses, r.nees);
+      for (const CoilTracking& t : {r.forward, r.loose}) {
+        text += fmt::format(" | {:>4.0f}% {:>6} {:>5.1f}", 100.0 * t.tracked, t.losses, t.nees);
+      }
+      text += "\n";
     }
   }
   return text;
@@ -75,15 +82,18 @@ nlohmann::json CoilJson(std::span<const CoilExperiment> experiments,
                         std::span<const CoilResult> results, std::uint64_t seed) {
   nlohmann::json json = {{"seed", seed}, {"trials", nlohmann::json::array()}};
   for (const CoilResult& r : results) {
-    nlohmann::json trial = {
-        {"experiment", r.experiment}, {"noise", TextOf(r.noise)}, {"mean_range_m", r.mean_range_m},
-        {"tracked", r.tracked},       {"losses", r.losses},       {"nees_per_axis", r.nees}};
+    nlohmann::json trial = TrackingJson(r.forward);
+    trial["experiment"] = r.experiment;
+    trial["noise"] = TextOf(r.noise);
+    trial["mean_range_m"] = r.mean_range_m;
     for (std::size_t i = 0; i < kCoilMethodCount; ++i) {
       const CoilFigure& f = r.figures[i];
       trial[kCoilMethodNames[i]] = {{"position_m", f.position_m},
                                     {"distance_m", f.distance_m},
                                     {"orientation_rad", f.orientation_rad}};
     }
+    trial[kCoilMethodNames[static_cast<std::size_t>(CoilMethod::kLoose)]].update(
+        TrackingJson(r.loose));
     if (const CoilExperiment* e = ExperimentOf(experiments, r.experiment)) {
       trial["published"] = {{"magnetic_only_m", e->published_magnetic_mm / kMmPerM},
                             {"magnetic_only_rad", e->published_magnetic_deg / kDegPerRad},

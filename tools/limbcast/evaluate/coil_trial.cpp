@@ -1,10 +1,11 @@
 #include "tools/limbcast/evaluate/coil_trial.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "common/base/expects.hpp"
+#include "common/filters/position/coil_loose_filter.hpp"
 #include "common/filters/position/coil_smoothing.hpp"
 #include "common/math/rotation.hpp"
 #include "common/simulation/random.hpp"
@@ -63,6 +64,49 @@ CoilFigure MagneticOnly(const CoilTrial& trial) {
     score.Add(pose.p_emitter_sensor_m, pose.q_sensor_emitter, ticks[middle]);
   }
   return score.Figure();
+}
+
+// Errors of a filter's estimates, and how it kept to its track.
+struct ForwardScore {
+  CoilScore errors;
+  double nees = 0.0;
+  double tracked = 0.0;
+  double scored = 0.0;
+
+  void Add(const filters::CoilEstimate& now, const CoilTick& truth) {
+    scored += 1.0;
+    if (!now.valid) {
+      return;
+    }
+    tracked += 1.0;
+    errors.Add(now.p_emitter_sensor_m, now.q_sensor_emitter, truth);
+    nees += (now.p_emitter_sensor_m - truth.p_emitter_sensor_m).squaredNorm() /
+            (now.sigma_m * now.sigma_m);
+  }
+  [[nodiscard]] CoilTracking Tracking(int losses) const {
+    return {tracked / std::max(1.0, scored), losses, nees / std::max(1.0, tracked)};
+  }
+};
+
+template <typename Filter>
+filters::CoilEstimate EstimateNow(const Filter& filter, Time measured_at) {
+  return filters::EstimateOf(filter.state(), filter.covariance(), measured_at,
+                             filter.phase() == filters::CoilPhase::kTracking);
+}
+
+CoilFigure Loose(const CoilTrial& trial, CoilTracking& tracking) {
+  auto filter = filters::LooseCoilFilter::Make(trial.config);
+  Expects(filter.ok(), "a valid configuration");
+  ForwardScore score;
+  for (std::size_t k = 0; k < trial.ticks.size(); ++k) {
+    const CoilTick& tick = trial.ticks[k];
+    filter->Update(tick.frame);
+    if (trial.scored[k] != 0) {
+      score.Add(EstimateNow(*filter, tick.frame.measured_at), tick);
+    }
+  }
+  tracking = score.Tracking(filter->losses());
+  return score.errors.Figure();
 }
 
 }  // namespace
@@ -134,56 +178,46 @@ CoilResult EvaluateTrial(const CoilTrial& trial) {
   Expects(filter.ok(), "a valid configuration");
   filters::CoilFixedLag fixed_lag(kLag_s, trial.rate_hz);
   filters::CoilIntervalSmoother smoother;
-  std::array<CoilScore, kCoilMethodCount> scores;
-  const auto score = [&](CoilMethod method) -> CoilScore& {
-    return scores[static_cast<std::size_t>(method)];
-  };
+  ForwardScore forward;
+  CoilScore lag_score;
+  CoilScore smoothed_score;
   CoilResult result;
   result.experiment = trial.name;
   result.noise = trial.noise;
-  double scored = 0.0;
   for (std::size_t k = 0; k < trial.ticks.size(); ++k) {
     const CoilTick& tick = trial.ticks[k];
+    const Time now_at = tick.frame.measured_at;
     filter->Update(tick.frame);
-    const bool valid = filter->phase() == filters::CoilPhase::kTracking;
-    const filters::CoilEstimate now =
-        filters::EstimateOf(filter->state(), filter->covariance(), tick.frame.measured_at, valid);
-    smoother.Add(*filter, tick.frame.measured_at);
+    smoother.Add(*filter, now_at);
     filters::CoilEstimate lagged;
-    if (fixed_lag.Update(*filter, tick.frame.measured_at, lagged) && lagged.valid) {
+    if (fixed_lag.Update(*filter, now_at, lagged) && lagged.valid) {
       const std::size_t then = TickAt(trial, lagged.measured_at);
       if (trial.scored[then] != 0) {
-        score(CoilMethod::kFixedLag)
-            .Add(lagged.p_emitter_sensor_m, lagged.q_sensor_emitter, trial.ticks[then]);
+        lag_score.Add(lagged.p_emitter_sensor_m, lagged.q_sensor_emitter, trial.ticks[then]);
       }
     }
-    if (trial.scored[k] == 0) {
-      continue;
-    }
-    scored += 1.0;
-    result.mean_range_m += tick.p_emitter_sensor_m.norm();
-    if (valid) {
-      result.tracked += 1.0;
-      score(CoilMethod::kForward).Add(now.p_emitter_sensor_m, now.q_sensor_emitter, tick);
-      result.nees += (now.p_emitter_sensor_m - tick.p_emitter_sensor_m).squaredNorm() /
-                     (now.sigma_m * now.sigma_m);
+    if (trial.scored[k] != 0) {
+      result.mean_range_m += tick.p_emitter_sensor_m.norm();
+      forward.Add(EstimateNow(*filter, now_at), tick);
     }
   }
-  result.nees /= std::max(1.0, result.tracked);
-  result.mean_range_m /= std::max(1.0, scored);
-  result.tracked /= std::max(1.0, scored);
-  result.losses = filter->losses();
+  result.mean_range_m /= std::max(1.0, forward.scored);
+  result.forward = forward.Tracking(filter->losses());
   const auto smoothed = smoother.Smooth();
   for (std::size_t k = 0; k < trial.ticks.size(); ++k) {
     if (smoothed[k].valid && trial.scored[k] != 0) {
-      score(CoilMethod::kSmoothed)
-          .Add(smoothed[k].p_emitter_sensor_m, smoothed[k].q_sensor_emitter, trial.ticks[k]);
+      smoothed_score.Add(smoothed[k].p_emitter_sensor_m, smoothed[k].q_sensor_emitter,
+                         trial.ticks[k]);
     }
   }
-  for (std::size_t i = 0; i < kCoilMethodCount; ++i) {
-    result.figures[i] = scores[i].Figure();
-  }
-  result.figures[static_cast<std::size_t>(CoilMethod::kMagneticOnly)] = MagneticOnly(trial);
+  const auto figure = [&](CoilMethod method) -> CoilFigure& {
+    return result.figures[static_cast<std::size_t>(method)];
+  };
+  figure(CoilMethod::kMagneticOnly) = MagneticOnly(trial);
+  figure(CoilMethod::kLoose) = Loose(trial, result.loose);
+  figure(CoilMethod::kForward) = forward.errors.Figure();
+  figure(CoilMethod::kFixedLag) = lag_score.Figure();
+  figure(CoilMethod::kSmoothed) = smoothed_score.Figure();
   return result;
 }
 

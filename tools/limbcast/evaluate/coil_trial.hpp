@@ -16,10 +16,10 @@ namespace limbcast::tool {
 inline constexpr double kCoilScoredFrom_s = 5.0;
 
 /// What is compared.
-enum class CoilMethod : std::uint8_t { kMagneticOnly, kForward, kFixedLag, kSmoothed };
-inline constexpr std::size_t kCoilMethodCount = 4;
+enum class CoilMethod : std::uint8_t { kMagneticOnly, kLoose, kForward, kFixedLag, kSmoothed };
+inline constexpr std::size_t kCoilMethodCount = 5;
 inline constexpr std::array<const char*, kCoilMethodCount> kCoilMethodNames = {
-    "magnetic_only", "forward", "lag_0.6_s", "smoothed"};
+    "magnetic_only", "loose", "forward", "lag_0.6_s", "smoothed"};
 
 /// The magnetometer and its pulses.
 enum class CoilNoise : std::uint8_t {
@@ -27,14 +27,20 @@ enum class CoilNoise : std::uint8_t {
   kModern,  ///< 15 nT, bipolar 17 + 17 ms, 3 in 600 ms
 };
 
+/// How a filter kept to its track over the scored time.
+struct CoilTracking {
+  double tracked = 0.0;  ///< part of it in which the filter was valid
+  int losses = 0;        ///< of the whole trial
+  double nees = 0.0;     ///< mean |error|² / trace of the covariance; 1 when it is honest
+};
+
 struct CoilResult {
   std::string experiment;
   CoilNoise noise = CoilNoise::kThesis;
   std::array<CoilFigure, kCoilMethodCount> figures;
   double mean_range_m = 0.0;
-  double tracked = 0.0;  ///< part of the scored time in which the filter was valid
-  int losses = 0;
-  double nees = 0.0;  ///< mean |error|² / trace of the covariance, forward; 1 when it is honest
+  CoilTracking forward;  ///< of the tightly coupled filter, which lag and smoothing stand on
+  CoilTracking loose;
 };
 
 /// Frames with their truth, and the filter that is to follow them.
@@ -55,7 +61,8 @@ struct CoilTrial {
 [[nodiscard]] Eigen::Matrix3d DrawGradient_tesla_m(std::uint64_t seed);
 
 /// Lets all methods run. Magnetic only: least squares on each three pulses, columns turned by gyro,
-/// no inertial displacement, compared in the middle of the second pulse.
+/// no inertial displacement, compared in the middle of the second pulse. Loose: the same poses,
+/// with inertial displacement, as measurements of the filter, forward.
 [[nodiscard]] CoilResult EvaluateTrial(const CoilTrial& trial);
 
 /// The experiment with the sensors of `noise` in a room with a gradient, and the filter for it.

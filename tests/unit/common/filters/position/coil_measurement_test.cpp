@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/math/rotation.hpp"
 
 namespace limbcast::filters {
@@ -64,6 +66,35 @@ TEST(CoilMeasurementTest, GaugesMatchDifferences) {
   BackgroundGauge(state, {2e-6, 19e-6, -45e-6}, at);
   EXPECT_NEAR(at.nu.x(), 1e-6, 1e-15);
   EXPECT_EQ(at.H.rightCols<3>(), Eigen::Matrix3d::Identity());
+}
+
+TEST(CoilMeasurementTest, HOfAPoseMatchesDifferences) {
+  const CoilInertialState state = SomeState();
+  const double h = 1e-6;
+  CoilPoseRecord at;
+  PoseOfBurst(state, state.p_emitter_sensor_m(), state.q_sensor_emitter().toRotationMatrix(), at);
+  EXPECT_LT(at.nu.norm(), 1e-15);
+  for (int i = 0; i < Index::kAll; ++i) {
+    // What a burst without noise would say if the error were h in this element.
+    const CoilInertialState truth = Plus(state, h * CoilVector::Unit(i));
+    CoilPoseRecord moved;
+    PoseOfBurst(state, truth.p_emitter_sensor_m(), truth.q_sensor_emitter().toRotationMatrix(),
+                moved);
+    EXPECT_LT((at.H.col(i) - moved.nu / h).norm(), 1e-5) << i;
+  }
+}
+
+TEST(CoilMeasurementTest, ACurrentIsWrongBeyondFivePercentOrWhenNotStated) {
+  const double nan = std::nan("");
+  const auto wrong = [](int coil, double stated_a, double measured_a) {
+    return IsCurrentWrong({.coil = coil, .current_a = stated_a, .measured_a = measured_a});
+  };
+  EXPECT_FALSE(wrong(0, -1.5, -1.43));
+  EXPECT_TRUE(wrong(0, -1.5, -1.42));
+  EXPECT_TRUE(wrong(0, -1.5, 1.5));
+  EXPECT_FALSE(wrong(0, 1.5, nan)) << "nobody measured it";
+  EXPECT_FALSE(wrong(-1, 0.0, 0.2)) << "no coil is on";
+  EXPECT_TRUE(wrong(0, nan, nan));
 }
 
 }  // namespace

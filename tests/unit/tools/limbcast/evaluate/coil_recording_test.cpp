@@ -31,8 +31,8 @@ TEST(CoilRecordingTest, ARealUnitUnderSimulatedPulsesIsFollowed) {
   const auto trial = MakeCoilTrial(Hand(20.0), CoilNoise::kThesis, 1);
   ASSERT_TRUE(trial);
   const CoilResult result = EvaluateTrial(*trial);
-  EXPECT_EQ(result.losses, 0);
-  EXPECT_GT(result.tracked, 0.99);
+  EXPECT_EQ(result.forward.losses, 0);
+  EXPECT_GT(result.forward.tracked, 0.99);
   const double forward_m =
       result.figures[static_cast<std::size_t>(CoilMethod::kForward)].position_m;
   EXPECT_LT(forward_m, 0.02);
