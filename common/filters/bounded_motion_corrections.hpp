@@ -114,9 +114,8 @@ void BoundedMotionStep<Scalar>::CorrectField(const Means& means) {
   const Vector3 z = means.m_b - s.m_0;
   const Matrix3 H_theta = Skew<Scalar>(means.m_b);
   const Matrix3& H_bm = means.R;
-  Eigen::Matrix<Scalar, kRows, 3> D =
-      P.template middleCols<3>(kTheta) * H_theta.transpose() +
-      P.template middleCols<3>(kBm) * H_bm.transpose();
+  Eigen::Matrix<Scalar, kRows, 3> D = P.template middleCols<3>(kTheta) * H_theta.transpose() +
+                                      P.template middleCols<3>(kBm) * H_bm.transpose();
   D.template rightCols<2>() += P.template middleCols<2>(kM0);
   Matrix3 innovation =
       H_theta * D.template middleRows<3>(kTheta) + H_bm * D.template middleRows<3>(kBm);
@@ -133,8 +132,7 @@ void BoundedMotionStep<Scalar>::CorrectField(const Means& means) {
   inverse *= lanes::Select(Mask(nis > gate), Scalar(gate / nis), Scalar(1));
   Eigen::Matrix<Scalar, kRows, 3> K_optimal = D * inverse;
   if (!lanes::All(means.has_m)) {
-    K_optimal =
-        Choose<Scalar>(means.has_m, K_optimal, Eigen::Matrix<Scalar, kRows, 3>::Zero());
+    K_optimal = Choose<Scalar>(means.has_m, K_optimal, Eigen::Matrix<Scalar, kRows, 3>::Zero());
   }
   Eigen::Matrix<Scalar, kRows, 3> K = K_optimal;
   if (config_.mag_heading_only) {

@@ -268,8 +268,7 @@ SampleVerdict BoundedMotionFilter<Scalar>::Report() {
   estimate.gyro_bias_rad_s = s.b_g.template cast<double>();
   const Eigen::Vector3d late_rad =
       core_.config().sigma_time_s * (q_ES * estimate.w_earth_sensor_in_sensor_rad_s);
-  estimate.cov_orientation_rad2 =
-      AttitudeCovariance(s) + late_rad * late_rad.transpose();
+  estimate.cov_orientation_rad2 = AttitudeCovariance(s) + late_rad * late_rad.transpose();
   estimate.at_rest = core_.at_rest();
   const double mag_absent_s = state_.gate.mag_absent_s();
   const bool has_field = s.has_field > Scalar(0);

@@ -118,7 +118,7 @@ class SensorTrack {
   bool marg_seen_ = false;
   const sensing::MargSample* begun_ = nullptr;  // between Begin and Finish
   Output output_;                               // of that sample, so far
-  std::vector<body::SegmentState> states_;  // by slot
+  std::vector<body::SegmentState> states_;      // by slot
 };
 
 }  // namespace limbcast::fusion

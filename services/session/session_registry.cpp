@@ -147,8 +147,8 @@ Status SessionRegistry::JoinPerformer(Session& session, const roster::JoinReques
   return Ok();
 }
 
-// A client that was killed and started again has another uid, and brings the sensors that the person
-// wears. Whoever is still there would have renewed by now.
+// A client that was killed and started again has another uid, and brings the sensors that the
+// person wears. Whoever is still there would have renewed by now.
 bool SessionRegistry::IsRestart(const Person& before, const roster::JoinRequest& request,
                                 Time now) {
   return request.sensors == before.known.sensors &&

@@ -216,7 +216,9 @@ void BM_FilterBatches(benchmark::State& state, const std::string& name,
 
 BENCHMARK_CAPTURE(BM_FilterBatches, tqt, "tqt", {})->Arg(286)->Arg(100);
 BENCHMARK_CAPTURE(BM_FilterBatches, tqt_float, "tqt", {{"precision", "float"}})->Arg(286)->Arg(100);
-BENCHMARK_CAPTURE(BM_FilterBatches, bmf_double, "bmf", {{"precision", "double"}})->Arg(286)->Arg(100);
+BENCHMARK_CAPTURE(BM_FilterBatches, bmf_double, "bmf", {{"precision", "double"}})
+    ->Arg(286)
+    ->Arg(100);
 BENCHMARK_CAPTURE(BM_FilterBatches, bmf_float, "bmf", {{"precision", "float"}})->Arg(286)->Arg(100);
 
 }  // namespace

@@ -91,8 +91,7 @@ TEST_P(BoundedMotionTransitionTest, MatchesWhatTheStepDoesToASmallError) {
   const Eigen::Matrix<double, State::kDim, 1> f =
       ErrorBetween(truth.state(), estimate.state()) / kH;
   const Eigen::Matrix<double, State::kDim, State::kDim> expected = f * f.transpose();
-  const Eigen::Matrix<double, State::kDim, State::kDim> actual =
-      estimate.state().P.Full();
+  const Eigen::Matrix<double, State::kDim, State::kDim> actual = estimate.state().P.Full();
   // F is of first order in the step T = 10 ms: what it leaves out is g·T²/2 = 5e-4 at the most.
   // design.
   EXPECT_LT((actual - expected).cwiseAbs().maxCoeff(), 1e-3) << "error state " << index << "\n"

@@ -87,7 +87,8 @@ TEST(BoundedMotionCorrectionsTest, ConsideredStatesKeepTheirCovariance) {
   const State with = TurnInALyingField(BoundedMotionConfig(), true).state();
   const State without = TurnInALyingField(BoundedMotionConfig(), false).state();
   EXPECT_LT((with.P.Full().block<3, 3>(3, 3) - without.P.Full().block<3, 3>(3, 3)).norm(), 1e-15);
-  EXPECT_LT((with.P.Full().block<9, 9>(16, 16) - without.P.Full().block<9, 9>(16, 16)).norm(), 1e-15);
+  EXPECT_LT((with.P.Full().block<9, 9>(16, 16) - without.P.Full().block<9, 9>(16, 16)).norm(),
+            1e-15);
   EXPECT_LT((with.P.Full().block<3, 9>(3, 16) - without.P.Full().block<3, 9>(3, 16)).norm(), 1e-15);
   EXPECT_LT(with.P(2, 2), 0.95 * without.P(2, 2));  // tilt, not known here, hides most of it
   const Eigen::Matrix<double, State::kDim, State::kDim> P = with.P.Full();
