@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,12 @@ namespace limbcast::bus::testing {
 /// A domain that other tests of this machine are unlikely to use now.
 inline std::uint32_t TestDomain() { return static_cast<std::uint32_t>(getpid()) % 102; }
 
+/// In a partition of this process: on a domain that is in use after all, nobody is met by mistake.
 inline BusConfig LoopbackConfig(Vendor vendor) {
-  return {.vendor = vendor, .domain_id = TestDomain(), .participant_name = "limbcast-unit-test"};
+  return {.vendor = vendor,
+          .domain_id = TestDomain(),
+          .partition = "unit-test-" + std::to_string(getpid()),
+          .participant_name = "limbcast-unit-test"};
 }
 
 /// Collects from middleware threads; tests wait for what they expect, never for time to pass.
