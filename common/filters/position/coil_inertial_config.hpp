@@ -11,10 +11,15 @@
 
 namespace limbcast::filters {
 
-/// Tuning of CoilInertialFilter; defaults of design/position.md sections 3, 9 and 10.
+/// Tuning of CoilInertialFilter; defaults of design/position.md sections 3, 9 and 10. Without
+/// `estimate_calibration` and `estimate_gyro_delay` it is the filter of section 10.
 struct CoilInertialConfig {
   sensing::CoilSource source;
   InertialNoise inertial;  ///< of both units
+  /// Scale and misalignment of the sensor's accelerometer and gyro (18 states).
+  bool estimate_calibration = true;
+  /// How much later than the accelerometer the sensor's gyro is.
+  bool estimate_gyro_delay = true;
 
   /// Noise of one magnetometer sample, one axis. Range: [1e-10, 1e-5]
   double sigma_mag_tesla = 50e-9;
@@ -46,8 +51,12 @@ struct CoilInertialConfig {
   double start_sigma_accel_bias_m_s2 = 0.05;
   double start_sigma_gyro_bias_rad_s = 5.2e-3;
   double start_sigma_background_tesla = 1e-6;
-  double rest_s = 0.25;           ///< mean of so long gives the first attitudes
-  double rest_below_rad_s = 0.2;  ///< of both gyros
+  /// Of each element; without unit. Range: [0, 0.1]
+  double start_sigma_accel_matrix = 0.01;
+  double start_sigma_gyro_matrix = 0.01;
+  double start_sigma_gyro_delay_s = 0.003;  ///< Range: [0, 0.05]
+  double rest_s = 0.25;                     ///< mean of so long gives the first attitudes
+  double rest_below_rad_s = 0.2;            ///< of both gyros
   /// Without rest for so long anything will do for the first attitudes; a track that begins so may
   /// be wrong for some seconds.
   double rest_patience_s = 2.0;

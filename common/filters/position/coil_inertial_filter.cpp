@@ -27,6 +27,9 @@ InertialStates SensorStates() {
   s.theta = Index::kSensorTheta;
   s.accel_bias = Index::kSensorAccelBias;
   s.gyro_bias = Index::kSensorGyroBias;
+  s.accel_matrix = Index::kSensorAccelMatrix;
+  s.gyro_matrix = Index::kSensorGyroMatrix;
+  s.gyro_delay = Index::kSensorGyroDelay;
   return s;
 }
 
@@ -35,6 +38,9 @@ InertialStates EmitterStates() {
   s.theta = Index::kEmitterTheta;
   s.accel_bias = Index::kEmitterAccelBias;
   s.gyro_bias = Index::kEmitterGyroBias;
+  s.accel_matrix = -1;
+  s.gyro_matrix = -1;
+  s.gyro_delay = -1;
   return s;
 }
 
@@ -181,6 +187,14 @@ void CoilInertialFilter::Level(const sensing::CoilFrame& frame) {
     SetVariance(P_, Index::kEmitterGyroBias, 0.0);
   }
   SetVariance(P_, Index::kBackground, config_.start_sigma_background_tesla);
+  if (config_.estimate_calibration) {
+    SetMatrixVariance(P_, Index::kSensorAccelMatrix, config_.start_sigma_accel_matrix);
+    SetMatrixVariance(P_, Index::kSensorGyroMatrix, config_.start_sigma_gyro_matrix);
+  }
+  if (config_.estimate_gyro_delay) {
+    P_(Index::kSensorGyroDelay, Index::kSensorGyroDelay) =
+        config_.start_sigma_gyro_delay_s * config_.start_sigma_gyro_delay_s;
+  }
   at_rest_ = patient;
   phase_ = CoilPhase::kAcquiring;
   collector_.Clear();

@@ -1,5 +1,7 @@
 #include "common/filters/position/coil_inertial_states.hpp"
 
+#include <cmath>
+
 #include "common/math/rotation.hpp"
 
 namespace limbcast::filters {
@@ -10,7 +12,9 @@ bool CoilInertialState::IsFinite() const {
   return p_earth_m.allFinite() && v_earth_m_s.allFinite() && q_earth_sensor.coeffs().allFinite() &&
          q_earth_emitter.coeffs().allFinite() && sensor.gyro_bias_rad_s.allFinite() &&
          sensor.accel_bias_m_s2.allFinite() && emitter.gyro_bias_rad_s.allFinite() &&
-         emitter.accel_bias_m_s2.allFinite() && background_earth_tesla.allFinite();
+         emitter.accel_bias_m_s2.allFinite() && background_earth_tesla.allFinite() &&
+         sensor.accel_matrix.allFinite() && sensor.gyro_matrix.allFinite() &&
+         std::isfinite(sensor.gyro_delay_s);
 }
 
 CoilInertialState Plus(const CoilInertialState& state, const CoilVector& d) {
@@ -26,6 +30,9 @@ CoilInertialState Plus(const CoilInertialState& state, const CoilVector& d) {
   x.emitter.accel_bias_m_s2 += d.segment<3>(Index::kEmitterAccelBias);
   x.emitter.gyro_bias_rad_s += d.segment<3>(Index::kEmitterGyroBias);
   x.background_earth_tesla += d.segment<3>(Index::kBackground);
+  x.sensor.accel_matrix += d.segment<9>(Index::kSensorAccelMatrix).reshaped(3, 3);
+  x.sensor.gyro_matrix += d.segment<9>(Index::kSensorGyroMatrix).reshaped(3, 3);
+  x.sensor.gyro_delay_s += d[Index::kSensorGyroDelay];
   return x;
 }
 
@@ -41,6 +48,10 @@ CoilVector Minus(const CoilInertialState& x, const CoilInertialState& y) {
   d.segment<3>(Index::kEmitterAccelBias) = x.emitter.accel_bias_m_s2 - y.emitter.accel_bias_m_s2;
   d.segment<3>(Index::kEmitterGyroBias) = x.emitter.gyro_bias_rad_s - y.emitter.gyro_bias_rad_s;
   d.segment<3>(Index::kBackground) = x.background_earth_tesla - y.background_earth_tesla;
+  d.segment<9>(Index::kSensorAccelMatrix) =
+      (x.sensor.accel_matrix - y.sensor.accel_matrix).reshaped();
+  d.segment<9>(Index::kSensorGyroMatrix) = (x.sensor.gyro_matrix - y.sensor.gyro_matrix).reshaped();
+  d[Index::kSensorGyroDelay] = x.sensor.gyro_delay_s - y.sensor.gyro_delay_s;
   return d;
 }
 
@@ -52,6 +63,12 @@ void SetVariance(CoilCovariance& P, int first, const Eigen::Vector3d& sigma) {
 
 void SetVariance(CoilCovariance& P, int first, double sigma) {
   SetVariance(P, first, Eigen::Vector3d::Constant(sigma));
+}
+
+void SetMatrixVariance(CoilCovariance& P, int first, double sigma) {
+  for (int column = first; column < first + 9; column += 3) {
+    SetVariance(P, column, sigma);
+  }
 }
 
 }  // namespace limbcast::filters

@@ -9,8 +9,9 @@
 namespace limbcast::filters {
 
 /// Error state of the magnetic + inertial filter (design/position.md section 10): true minus
-/// estimate, attitudes in the earth frame, left. First index of each block of three; the blocks
-/// that mix with others come first.
+/// estimate, attitudes in the earth frame, left. First index of each block of three (matrices: of
+/// nine, by columns); the blocks that mix with others come first. What is not to be estimated has a
+/// standard deviation of zero, and stays as it is.
 struct CoilInertialIndex {
   static constexpr int kP = 0;  ///< sensor minus emitter, earth frame
   static constexpr int kV = 3;  ///< its rate
@@ -22,7 +23,10 @@ struct CoilInertialIndex {
   static constexpr int kEmitterGyroBias = 21;
   static constexpr int kBackground = 24;  ///< earth's and other steady field at the sensor, E
   static constexpr int kMixing = 12;
-  static constexpr int kAll = 27;
+  static constexpr int kSensorAccelMatrix = 27;  ///< M_a
+  static constexpr int kSensorGyroMatrix = 36;   ///< M_g
+  static constexpr int kSensorGyroDelay = 45;    ///< t_g, one element
+  static constexpr int kAll = 46;
 };
 
 using CoilVector = Eigen::Matrix<double, CoilInertialIndex::kAll, 1>;
@@ -59,5 +63,7 @@ struct CoilInertialState {
 /// Gives the three errors from `first` a variance of their own: no covariance with any other.
 void SetVariance(CoilCovariance& P, int first, const Eigen::Vector3d& sigma);
 void SetVariance(CoilCovariance& P, int first, double sigma);
+/// The same of the nine errors of a matrix.
+void SetMatrixVariance(CoilCovariance& P, int first, double sigma);
 
 }  // namespace limbcast::filters

@@ -62,7 +62,7 @@ class CoilFixedLag {
   std::size_t count_ = 0;
 };
 
-/// A whole recording smoothed from its end: keeps about 15 kB for each frame.
+/// A whole recording smoothed from its end: keeps about 25 kB for each frame.
 class CoilIntervalSmoother {
  public:
   void Add(const CoilInertialFilter& filter, Time measured_at);

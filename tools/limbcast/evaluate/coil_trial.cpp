@@ -148,7 +148,9 @@ filters::CoilInertialConfig MakeCoilFilter(const CoilExperiment& experiment, Coi
   config.sigma_mag_tesla = SigmaOf_tesla(noise);
   config.half_space = experiment.half_space;
   config.walk_background_tesla_rts = experiment.walk_background_tesla_rts;
-  // The inertial units of CoilSensorErrors; scale and misalignment are 0.2 % each.
+  // The inertial units of CoilSensorErrors; scale and misalignment are 0.2 % each at most.
+  config.start_sigma_accel_matrix = 1.2e-3;
+  config.start_sigma_gyro_matrix = 1.2e-3;
   config.inertial.sigma_accel_m_s2_rthz = 3e-3;
   config.inertial.sigma_gyro_rad_s_rthz = 1e-3;
   config.inertial.k_accel = 4e-3;

@@ -18,9 +18,12 @@ TEST(CoilInertialConfigTest, TheFirstRangeNotKeptIsNamed) {
   EXPECT_NE(status.error().message.find("sigma_mag_tesla"), std::string::npos);
 }
 
-TEST(CoilInertialConfigTest, NotANumberAndAHalfSpaceOfWrongLengthAreRefused) {
+TEST(CoilInertialConfigTest, WhatIsOutOfRangeIsRefused) {
   CoilInertialConfig config;
   config.start_sigma_v_m_s = std::nan("");
+  EXPECT_FALSE(Validate(config));
+  config = {};
+  config.start_sigma_gyro_matrix = 0.2;
   EXPECT_FALSE(Validate(config));
   config = {};
   config.half_space = Eigen::Vector3d(0.0, 0.0, 2.0);

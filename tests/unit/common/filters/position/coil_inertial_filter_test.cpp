@@ -12,6 +12,7 @@ namespace limbcast::filters {
 namespace {
 
 using simulation::CoilTick;
+using Index = CoilInertialIndex;
 using Ticks = std::vector<CoilTick>;
 
 struct Outcome {
@@ -73,6 +74,102 @@ TEST(CoilInertialFilterTest, TracksASensorFromAFixedSourceWithoutInertialUnit) {
   EXPECT_EQ(outcome.tracked, 120 * 20);
   EXPECT_LT(outcome.rms_m, 0.007);
   EXPECT_LT(outcome.rms_rad, 0.0175);
+}
+
+// Turns that a sensor has whose axes are not square and of one scale, and whose gyro is late.
+Ticks WithGyroErrors(Ticks ticks, const Eigen::Matrix3d& gain, double delay_s) {
+  Eigen::Vector3d before = ticks.front().frame.gyro_rad_s;
+  for (CoilTick& tick : ticks) {
+    const Eigen::Vector3d now = tick.frame.gyro_rad_s;
+    tick.frame.gyro_rad_s = gain * (now + delay_s * 120.0 * (before - now));
+    before = now;
+  }
+  return ticks;
+}
+
+Eigen::Matrix3d SkewedGain() {
+  Eigen::Matrix3d gain;
+  gain << 1.02, 0.01, -0.015,  //
+      -0.01, 0.98, 0.01,       //
+      0.015, 0.02, 1.015;
+  return gain;
+}
+
+TEST(CoilInertialFilterTest, LearnsTheMatrixOfTheGyro) {
+  const Ticks ticks =
+      WithGyroErrors(SwingingSensor(false, simulation::ThesisPulses(), 60.0, 9), SkewedGain(), 0.0);
+  CoilInertialConfig config = SwingConfig();
+  CoilInertialFilter filter = MakeFilter(config);
+  const Outcome with = Play(filter, ticks, 30.0);
+  config.estimate_calibration = false;
+  const Outcome without = Play(MakeFilter(config), ticks, 30.0);
+  EXPECT_LT(with.rms_m, 0.8 * without.rms_m);
+  EXPECT_LT(with.nees, 6.0);
+  for (const CoilTick& tick : ticks) {
+    filter.Update(tick.frame);
+  }
+  // w = (I − M_g) w_m
+  const Eigen::Matrix3d expected = Eigen::Matrix3d::Identity() - SkewedGain().inverse();
+  const Eigen::Matrix3d left = filter.state().sensor.gyro_matrix - expected;
+  EXPECT_LT(left.norm(), 0.4 * expected.norm());
+  const auto var = filter.covariance().diagonal().segment<9>(Index::kSensorGyroMatrix);
+  EXPECT_LT((left.reshaped().array().square() / var.array()).mean(), 3.0);
+}
+
+TEST(CoilInertialFilterTest, LearnsHowLateTheGyroIs) {
+  constexpr double kDelay_s = 4e-3;
+  const Ticks ticks = WithGyroErrors(SwingingSensor(false, simulation::ThesisPulses(), 60.0, 10),
+                                     Eigen::Matrix3d::Identity(), kDelay_s);
+  CoilInertialFilter filter = MakeFilter(SwingConfig());
+  for (const CoilTick& tick : ticks) {
+    filter.Update(tick.frame);
+  }
+  const double sigma_s =
+      std::sqrt(filter.covariance()(Index::kSensorGyroDelay, Index::kSensorGyroDelay));
+  EXPECT_LT(sigma_s, 1e-3);
+  EXPECT_NEAR(filter.state().sensor.gyro_delay_s, kDelay_s, 3.0 * sigma_s);
+}
+
+TEST(CoilInertialFilterTest, WhatIsNotToBeEstimatedStays) {
+  const Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 12.0, 11);
+  CoilInertialConfig config = SwingConfig();
+  config.estimate_calibration = false;
+  config.estimate_gyro_delay = false;
+  CoilInertialFilter filter = MakeFilter(config);
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    if (k == 900) {
+      CoilVector kick = CoilVector::Zero();
+      kick[Index::kP] = 2.0;
+      filter.Disturb(kick);  // a loss, which widens what is estimated
+    }
+    filter.Update(ticks[k].frame);
+  }
+  ASSERT_EQ(filter.losses(), 1);
+  EXPECT_EQ(filter.state().sensor.gyro_matrix, Eigen::Matrix3d::Zero());
+  EXPECT_EQ(filter.state().sensor.accel_matrix, Eigen::Matrix3d::Zero());
+  EXPECT_EQ(filter.state().sensor.gyro_delay_s, 0.0);
+  constexpr int kRest = Index::kAll - Index::kSensorAccelMatrix;
+  EXPECT_TRUE(filter.covariance().rightCols<kRest>().isZero(0.0));
+}
+
+TEST(CoilInertialFilterTest, ALossLetsCalibrationBeLearnedAgain) {
+  const Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 10.0, 12);
+  const CoilInertialConfig config = SwingConfig();
+  CoilInertialFilter filter = MakeFilter(config);
+  for (std::size_t k = 0; k < ticks.size() && filter.losses() == 0; ++k) {
+    if (k == 1000) {
+      CoilVector kick = CoilVector::Zero();
+      kick[Index::kP] = 2.0;
+      filter.Disturb(kick);
+    }
+    filter.Update(ticks[k].frame);
+  }
+  ASSERT_EQ(filter.losses(), 1);
+  const auto sigma = filter.covariance().diagonal().cwiseSqrt().eval();
+  EXPECT_GE(sigma.segment<9>(Index::kSensorAccelMatrix).minCoeff(),
+            config.start_sigma_accel_matrix);
+  EXPECT_GE(sigma.segment<9>(Index::kSensorGyroMatrix).minCoeff(), config.start_sigma_gyro_matrix);
+  EXPECT_GE(sigma[Index::kSensorGyroDelay], config.start_sigma_gyro_delay_s);
 }
 
 TEST(CoilInertialFilterTest, BipolarPulsesOfAThirdOfTheLengthAreEnough) {

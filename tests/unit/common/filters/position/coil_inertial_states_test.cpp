@@ -16,6 +16,24 @@ TEST(CoilInertialStatesTest, MinusIsTheInverseOfPlus) {
   EXPECT_LT((Minus(Plus(state, Minus(moved, state)), moved)).norm(), 1e-12);
 }
 
+TEST(CoilInertialStatesTest, MatricesAreTakenByColumns) {
+  CoilVector error = CoilVector::Zero();
+  error[CoilInertialIndex::kSensorGyroMatrix + 1] = 0.01;
+  error[CoilInertialIndex::kSensorAccelMatrix + 3] = 0.02;
+  const CoilInertialState state = Plus({}, error);
+  EXPECT_EQ(state.sensor.gyro_matrix(1, 0), 0.01);
+  EXPECT_EQ(state.sensor.accel_matrix(0, 1), 0.02);
+}
+
+TEST(CoilInertialStatesTest, AVarianceOfItsOwnLeavesNoCovariance) {
+  CoilCovariance P = CoilCovariance::Ones();
+  SetMatrixVariance(P, CoilInertialIndex::kSensorGyroMatrix, 0.1);
+  const auto own = P.middleRows<9>(CoilInertialIndex::kSensorGyroMatrix);
+  EXPECT_NEAR(own.sum(), 9.0 * 0.01, 1e-12);
+  EXPECT_NEAR(own.norm(), 3.0 * 0.01, 1e-12);
+  EXPECT_EQ(P(0, 0), 1.0);
+}
+
 TEST(CoilInertialStatesTest, AttitudeErrorsAreInTheEarthFrame) {
   CoilInertialState state;
   state.q_earth_sensor = Eigen::AngleAxisd(1.5708, Eigen::Vector3d::UnitX());
@@ -32,6 +50,9 @@ TEST(CoilInertialStatesTest, OutputsAreRelativeToTheEmitter) {
   EXPECT_LT((state.p_emitter_sensor_m() - Eigen::Vector3d(0.4, 0.0, 0.0)).norm(), 1e-12);
   EXPECT_TRUE(state.IsFinite());
   state.v_earth_m_s.y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(state.IsFinite());
+  state.v_earth_m_s.setZero();
+  state.sensor.gyro_matrix(2, 1) = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(state.IsFinite());
 }
 

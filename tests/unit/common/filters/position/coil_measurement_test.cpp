@@ -65,7 +65,7 @@ TEST(CoilMeasurementTest, GaugesMatchDifferences) {
   }
   BackgroundGauge(state, {2e-6, 19e-6, -45e-6}, at);
   EXPECT_NEAR(at.nu.x(), 1e-6, 1e-15);
-  EXPECT_EQ(at.H.rightCols<3>(), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(at.H.middleCols<3>(Index::kBackground), Eigen::Matrix3d::Identity());
 }
 
 TEST(CoilMeasurementTest, HOfAPoseMatchesDifferences) {
