@@ -100,10 +100,10 @@ std::string DomainXml(const BusConfig& config) {
          "</Discovery><Internal>"
          // A slow reader must not hold a stream back: KEEP_LAST bounds what is kept, not bytes.
          "<Watermarks><WhcHigh>64 MB</WhcHigh><WhcHighInit>64 MB</WhcHighInit></Watermarks>"
-         // The first request for acknowledgement that a secured participant sends is enciphered, and
-         // the last message of the handshake may be packed behind it: Fast DDS 2.9, which cannot
-         // decipher yet, then drops both, and neither library repeats the handshake. The default
-         // of 10 ms passes before the handshake is over when cores are busy.
+         // The first request for acknowledgement that a secured participant sends is enciphered,
+         // and the last message of the handshake may be packed behind it: Fast DDS 2.9, which
+         // cannot decipher yet, then drops both, and neither library repeats the handshake. The
+         // default of 10 ms passes before the handshake is over when cores are busy.
          "<PreEmptiveAckDelay>" +
          (config.security_dir.empty() ? "10 ms" : "250 ms") +
          "</PreEmptiveAckDelay>"
