@@ -240,24 +240,18 @@ void CoilInertialFilter::Lose(CoilUpdateReport& report) {
   if (!(state_.p_earth_m.norm() <= config_.lost_range_m)) {
     state_.p_earth_m *= config_.pose.max_range_m / state_.p_earth_m.norm();
   }
-  // What pulled the position away has pulled at all that hangs together with it.
+  // What pulled the position away has pulled at all that hangs together with it. The calibration of
+  // a sensor is the same before and after, and was learned over longer than the track went wrong.
   P_ = CoilCovariance(P_.diagonal().asDiagonal());
   SetVariance(P_, Index::kP, 0.0);
   SetVariance(P_, Index::kV, 0.0);
-  const auto add = [this](int first, double sigma, int count = 3) {
-    P_.diagonal().segment(first, count).array() += sigma * sigma;
+  const auto add = [this](int first, double sigma) {
+    P_.diagonal().segment<3>(first).array() += sigma * sigma;
   };
   add(Index::kSensorTheta, config_.start_sigma_tilt_rad);
   add(Index::kEmitterTheta, config_.start_sigma_tilt_rad);
   add(Index::kSensorAccelBias, config_.start_sigma_accel_bias_m_s2);
   add(Index::kSensorGyroBias, config_.start_sigma_gyro_bias_rad_s);
-  if (config_.estimate_calibration) {
-    add(Index::kSensorAccelMatrix, config_.start_sigma_accel_matrix, 9);
-    add(Index::kSensorGyroMatrix, config_.start_sigma_gyro_matrix, 9);
-  }
-  if (config_.estimate_gyro_delay) {
-    add(Index::kSensorGyroDelay, config_.start_sigma_gyro_delay_s, 1);
-  }
   if (last_ && last_->emitter_inertial) {
     add(Index::kEmitterAccelBias, config_.start_sigma_accel_bias_m_s2);
     add(Index::kEmitterGyroBias, config_.start_sigma_gyro_bias_rad_s);

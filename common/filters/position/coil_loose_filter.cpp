@@ -37,7 +37,10 @@ LooseCoilFilter::LooseCoilFilter(const CoilInertialConfig& config, const CoilIne
       frames_(kFrames),
       collector_(config.sigma_mag_tesla, kBackgroundAfter) {}
 
-Result<LooseCoilFilter> LooseCoilFilter::Make(const CoilInertialConfig& config) {
+Result<LooseCoilFilter> LooseCoilFilter::Make(const CoilInertialConfig& given) {
+  CoilInertialConfig config = given;
+  config.estimate_calibration = false;
+  config.estimate_gyro_delay = false;
   const auto filter = CoilInertialFilter::Make(config);
   if (!filter) {
     return filter.error();

@@ -27,7 +27,9 @@ namespace limbcast::filters {
 /// itself.
 class LooseCoilFilter {
  public:
-  /// @param config  needs a half space: there is no start on both sides here.
+  /// @param config  needs a half space: there is no start on both sides here. The sensor's
+  /// calibration
+  ///                is not estimated, whatever it says: the specification's states alone.
   [[nodiscard]] static Result<LooseCoilFilter> Make(const CoilInertialConfig& config);
 
   /// @returns as CoilInertialFilter does; `gate` and `nis` are of the pose (mean 6) where this
