@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <utility>
 
 namespace limbcast::filters {
 
@@ -51,10 +51,9 @@ struct PackedSymmetric {
 
  private:
   [[nodiscard]] static std::size_t Index(int row, int column) {
-    if (row > column) {
-      std::swap(row, column);
-    }
-    return static_cast<std::size_t>(column * (column + 1) / 2 + row);
+    const auto upper_row = static_cast<std::size_t>(std::min(row, column));
+    const auto upper_column = static_cast<std::size_t>(std::max(row, column));
+    return upper_column * (upper_column + 1) / 2 + upper_row;
   }
 };
 
