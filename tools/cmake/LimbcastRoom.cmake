@@ -62,6 +62,9 @@ function(limbcast_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  if(LIMBCAST_SANITIZE)
+    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")  # filters of 40 states take a minute and more there
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE limbcast_options ${ARG_DEPS} limbcast_test_support
     GTest::gmock GTest::gtest GTest::gtest_main)
