@@ -46,8 +46,9 @@ struct World {
         open.erase(closed->state.name);
       } else if (const auto* entry = std::get_if<EntryChanged>(&change)) {
         const auto before = entries[entry->entry.session].find(entry->entry.body_id);
-        RC_ASSERT(before == entries[entry->entry.session].end() ||
-                  before->second.revision < entry->entry.revision);
+        // In parentheses: what RC_ASSERT takes apart is not evaluated from left to right.
+        RC_ASSERT((before == entries[entry->entry.session].end() ||
+                   before->second.revision < entry->entry.revision));
         entries[entry->entry.session][entry->entry.body_id] = entry->entry;
       } else if (const auto* gone = std::get_if<EntryGone>(&change)) {
         RC_ASSERT(entries[gone->entry.session].erase(gone->entry.body_id) == 1U);
@@ -77,7 +78,7 @@ void CheckInvariants(const SessionRegistry& registry, const World& world) {
       }
       ++here;
       RC_ASSERT(person.coil_slot <= limits.coil_slots);
-      RC_ASSERT(person.coil_slot == 0 || slots.insert(person.coil_slot).second);
+      RC_ASSERT((person.coil_slot == 0 || slots.insert(person.coil_slot).second));
       for (const roster::SensorAssignment& sensor : person.sensors) {
         RC_ASSERT(worn.insert(sensor.sensor_uid).second);
       }
