@@ -45,7 +45,7 @@ SensorTrack::SensorTrack(BodyId body_id, const TrackPlan& plan, const FilterFact
       filter_(MakeChosen(factory, plan.filters.name)),
       beside_(plan.filters.beside.empty() ? nullptr : MakeChosen(factory, plan.filters.beside)),
       overloads_seen_(plan.overloads) {
-  ProvideSlots(has_beside() ? 2 : 1);
+  ProvideSlots(filter_slots());
 }
 
 void SensorTrack::ProvideSlots(std::size_t count) {
@@ -78,7 +78,7 @@ void SensorTrack::Apply(const TrackPlan& plan, const FilterFactory& factory) {
   if (!beside_is_right) {
     beside_ = plan.filters.beside.empty() ? nullptr : MakeChosen(factory, plan.filters.beside);
   }
-  ProvideSlots(has_beside() ? 2 : 1);
+  ProvideSlots(filter_slots());
 }
 
 // Without an orientation so far there is nothing to hold on to.
@@ -203,7 +203,7 @@ SensorTrack::Output SensorTrack::Finish() {
 
 // Counts the sample and says whether the filters get it: verdict kFused.
 void SensorTrack::Judge(const sensing::MargSample& sample, const Reception& reception) {
-  output_ = Output{.states = {states_.data(), std::size_t{has_beside() ? 2U : 1U}}};
+  output_ = Output{.states = {states_.data(), filter_slots()}};
   for (SegmentState& state : output_.states) {
     Start(state, sample.sequence, sample.measured_at, sample.published_at, reception);
   }

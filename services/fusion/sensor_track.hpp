@@ -88,6 +88,7 @@ class SensorTrack {
                                   const Reception& reception, std::int64_t& lost);
   [[nodiscard]] SampleVerdict CheckTime(Time measured_at, const Reception& reception) const;
   [[nodiscard]] SampleVerdict CheckOrder(Time measured_at);
+  [[nodiscard]] std::size_t filter_slots() const { return has_beside() ? 2 : 1; }
   void ProvideSlots(std::size_t count);
   void TakeIncoming();
   void Judge(const sensing::MargSample& sample, const Reception& reception);

@@ -12,7 +12,6 @@ namespace limbcast::gateway {
 
 namespace {
 
-constexpr int kBackgroundAfter = 3;    // samples that end a pulse (design/position.md section 7)
 constexpr double kLongestGap_s = 0.1;  // of a sensor: the attitude over it is not known
 constexpr std::uint32_t kMagUseless =
     sensing::kMagMissing | sensing::kMagSaturated | sensing::kMagHeld;
@@ -43,7 +42,8 @@ void CoilPulseDriver::Forget() {
       sensor.source = static_cast<std::size_t>(own - sources_.begin());
       const auto& listed = own->info.sensors;
       if (std::find(listed.begin(), listed.end(), assignment.sensor_uid) != listed.end()) {
-        sensor.collector.emplace(own->info.sigma_mag_tesla, kBackgroundAfter);
+        sensor.collector.emplace(own->info.sigma_mag_tesla,
+                                 filters::CoilPulseCollector::kBackgroundAfterLive);
       }
     }
   }

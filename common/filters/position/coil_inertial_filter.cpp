@@ -13,7 +13,6 @@ namespace {
 // Notation: E earth, S sensor, M emitter.
 
 using Index = CoilInertialIndex;
-constexpr int kBackgroundAfter = 3;  // samples that end a pulse
 constexpr double kBackgroundStep_tesla = 5e-6;
 constexpr double kLeastBackground_tesla = 20e-6;
 constexpr double kMostBackground_tesla = 80e-6;
@@ -58,7 +57,8 @@ bool InertialFinite(const sensing::CoilFrame& frame) {
 }  // namespace
 
 CoilInertialFilter::CoilInertialFilter(const CoilInertialConfig& config)
-    : config_(config), collector_(config.sigma_mag_tesla, kBackgroundAfter) {}
+    : config_(config),
+      collector_(config.sigma_mag_tesla, CoilPulseCollector::kBackgroundAfterLive) {}
 
 Result<CoilInertialFilter> CoilInertialFilter::Make(const CoilInertialConfig& config) {
   if (const Status valid = Validate(config); !valid) {

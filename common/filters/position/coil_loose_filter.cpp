@@ -9,7 +9,6 @@ namespace limbcast::filters {
 namespace {
 
 using Index = CoilInertialIndex;
-constexpr int kBackgroundAfter = 3;  // samples that end a pulse
 constexpr int kMostRefused = 3;
 constexpr double kPoseValues = 6.0;
 // Chance exceeds 16 of three values and 22.5 of six as often: once in a thousand.
@@ -35,7 +34,7 @@ LooseCoilFilter::LooseCoilFilter(const CoilInertialConfig& config, const CoilIne
       now_(filter),
       anchor_(filter),
       frames_(kFrames),
-      collector_(config.sigma_mag_tesla, kBackgroundAfter) {}
+      collector_(config.sigma_mag_tesla, CoilPulseCollector::kBackgroundAfterLive) {}
 
 Result<LooseCoilFilter> LooseCoilFilter::Make(const CoilInertialConfig& given) {
   CoilInertialConfig config = given;

@@ -37,6 +37,9 @@ struct CollectedPulse {
 /// the last three pulses. Fixed size; thread-compatible.
 class CoilPulseCollector {
  public:
+  /// `background_after` of who cannot wait (design/position.md section 7).
+  static constexpr int kBackgroundAfterLive = 3;
+
   /// @param background_after  a pulse is done after so many background samples, or with the next.
   CoilPulseCollector(double sigma_tesla, int background_after)
       : sigma_tesla_(sigma_tesla), background_after_(background_after) {}

@@ -183,24 +183,12 @@ TEST(CoilInertialFilterTest, BipolarPulsesOfAThirdOfTheLengthAreEnough) {
 
 TEST(CoilInertialFilterTest, BadInputDoesNotThrowItOff) {
   Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 15.0, 6);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t k = 600; k < ticks.size(); ++k) {
+  constexpr std::size_t kSpoiledFrom = 600;
+  SpoilFrames(ticks, kSpoiledFrom);
+  for (std::size_t k = kSpoiledFrom; k < ticks.size(); ++k) {
     sensing::CoilFrame& frame = ticks[k].frame;
-    if (k % 97 == 0) {
-      frame.mag_tesla.y() = nan;
-    }
-    if (k % 101 == 0) {
-      frame.accel_m_s2.x() = nan;
-    }
-    if (k % 103 == 0) {
-      frame.mag_valid = false;
-      frame.mag_tesla.setConstant(150e-6);
-    }
     if (k % 301 == 0) {
       frame.mag_tesla += Eigen::Vector3d(3e-6, -2e-6, 1e-6);
-    }
-    if (k % 107 == 0) {
-      frame.measured_at = ticks[k - 1].frame.measured_at;
     }
   }
   const Outcome outcome = Play(MakeFilter(SwingConfig()), ticks, 5.0);

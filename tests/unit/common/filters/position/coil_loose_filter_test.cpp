@@ -110,22 +110,10 @@ TEST(LooseCoilFilterTest, APoseCorrectsAtTheMiddleOfItsBurst) {
 
 TEST(LooseCoilFilterTest, BadInputDoesNotThrowItOff) {
   Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 15.0, 6);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t k = 600; k < ticks.size(); ++k) {
+  constexpr std::size_t kSpoiledFrom = 600;
+  SpoilFrames(ticks, kSpoiledFrom);
+  for (std::size_t k = kSpoiledFrom; k < ticks.size(); ++k) {
     sensing::CoilFrame& frame = ticks[k].frame;
-    if (k % 97 == 0) {
-      frame.mag_tesla.y() = nan;
-    }
-    if (k % 101 == 0) {
-      frame.accel_m_s2.x() = nan;
-    }
-    if (k % 103 == 0) {
-      frame.mag_valid = false;
-      frame.mag_tesla.setConstant(150e-6);
-    }
-    if (k % 107 == 0) {
-      frame.measured_at = ticks[k - 1].frame.measured_at;
-    }
     if (k % 109 == 0 && frame.drive.coil >= 0) {
       frame.drive.measured_a = 0.8 * frame.drive.current_a;
       frame.mag_tesla *= 0.5;

@@ -1,5 +1,7 @@
 #include "tests/unit/common/filters/position/coil_scene.hpp"
 
+#include <limits>
+
 #include "common/simulation/jet.hpp"
 #include "common/simulation/smooth_step.hpp"
 
@@ -35,6 +37,26 @@ std::vector<simulation::CoilTick> SwingingSensor(bool moving_source,
   stream.errors = simulation::CoilSensorErrors(50e-9);
   stream.gradient_tesla_m.diagonal() = Eigen::Vector3d(2e-7, -3e-7, 1e-7);
   return simulation::SimulateCoil(stream, duration_s, seed);
+}
+
+void SpoilFrames(std::vector<simulation::CoilTick>& ticks, std::size_t first) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = first; k < ticks.size(); ++k) {
+    sensing::CoilFrame& frame = ticks[k].frame;
+    if (k % 97 == 0) {
+      frame.mag_tesla.y() = nan;
+    }
+    if (k % 101 == 0) {
+      frame.accel_m_s2.x() = nan;
+    }
+    if (k % 103 == 0) {
+      frame.mag_valid = false;
+      frame.mag_tesla.setConstant(150e-6);
+    }
+    if (k % 107 == 0) {
+      frame.measured_at = ticks[k - 1].frame.measured_at;
+    }
+  }
 }
 
 CoilInertialConfig SwingConfig() {

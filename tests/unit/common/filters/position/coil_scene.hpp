@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,10 @@ namespace limbcast::filters {
 [[nodiscard]] std::vector<simulation::CoilTick> SwingingSensor(
     bool moving_source, const simulation::CoilPulseConfig& pulses, double duration_s,
     std::uint64_t seed);
+
+/// Spoils some frames in a hundred from the one with index `first` on: readings that are not
+/// finite, a clipped magnetometer, a time that comes again.
+void SpoilFrames(std::vector<simulation::CoilTick>& ticks, std::size_t first);
 
 /// The filter's configuration for it: 50 nT, upper half space.
 [[nodiscard]] CoilInertialConfig SwingConfig();
