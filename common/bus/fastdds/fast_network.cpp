@@ -45,7 +45,7 @@ void SetUniqueGuidPrefix(DomainParticipantQos& qos) {
 struct NumbersInUse {
   std::mutex mutex;
   std::set<std::int32_t> numbers;
-  std::int32_t made = 0;
+  std::int32_t next_secured = getpid();
 };
 NumbersInUse& TheNumbersInUse() {
   static auto* in_use = new NumbersInUse();  // NOLINT: buses may be static objects
@@ -118,6 +118,8 @@ Result<DomainParticipantQos> ParticipantQos(const BusConfig& config,
 
 namespace {
 
+constexpr std::uint32_t FirstPort(std::uint32_t domain_id) { return 7400 + 250 * domain_id + 10; }
+
 bool IsFree(std::uint32_t port) {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
@@ -130,13 +132,18 @@ bool IsFree(std::uint32_t port) {
   return bound;
 }
 
+// Two unicast ports for each participant number, DDSI-RTPS 2.2, 9.6.1.1.
+bool HasFreePorts(std::uint32_t domain_id, std::uint32_t number) {
+  const std::uint32_t first = FirstPort(domain_id) + 2 * number;
+  return IsFree(first) && IsFree(first + 1);
+}
+
 }  // namespace
 
 Status CheckFreePorts(const BusConfig& config) {
-  // Two unicast ports for each participant number, DDSI-RTPS 2.2, 9.6.1.1.
-  const std::uint32_t first = 7400 + 250 * config.domain_id + 10;
+  const std::uint32_t first = FirstPort(config.domain_id);
   for (std::uint32_t number = 0; number < kPeerPorts; ++number) {
-    if (IsFree(first + 2 * number) && IsFree(first + 2 * number + 1)) {
+    if (HasFreePorts(config.domain_id, number)) {
       return Ok();
     }
   }
@@ -146,12 +153,19 @@ Status CheckFreePorts(const BusConfig& config) {
                    " are in use"};
 }
 
-ParticipantNumber::ParticipantNumber(bool secured) {
+ParticipantNumber::ParticipantNumber(const BusConfig& config) {
   constexpr auto kSpread = static_cast<std::int32_t>(kPeerPorts);
   NumbersInUse& in_use = TheNumbersInUse();
   const std::lock_guard lock(in_use.mutex);
-  if (secured) {
-    value_ = (getpid() % kSpread + in_use.made++) % kSpread;
+  if (!config.security_dir.empty()) {
+    value_ = in_use.next_secured % kSpread;
+    for (std::int32_t i = 0;
+         i < kSpread && (in_use.numbers.contains(value_) ||
+                         !HasFreePorts(config.domain_id, static_cast<std::uint32_t>(value_)));
+         ++i) {
+      value_ = (value_ + 1) % kSpread;
+    }
+    in_use.next_secured = value_ + 1;
   }
   while (!in_use.numbers.insert(value_).second) {
     ++value_;

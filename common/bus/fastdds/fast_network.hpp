@@ -27,13 +27,14 @@ namespace limbcast::bus::fastdds {
 /// ports, and peers call only the first 64 of them; the library itself never uses a number twice,
 /// so the 65th bus that a process opened could not be found. Thread-safe.
 ///
-/// On a secured network it is not the lowest, but another one for each process and each bus of it.
+/// On a secured network it is not the lowest, but another one for each process and each bus of it,
+/// of those whose ports are free (the library would move on to the next, which comes next anyway).
 /// A peer on Cyclone DDS keeps a secured participant that has left for its lease, 10 s, and puts
 /// what it still has for it into one packet with what it sends to the next one on that port; Fast
 /// DDS drops the packet, and when that was the last message of a handshake, it is not repeated.
 class ParticipantNumber {
  public:
-  explicit ParticipantNumber(bool secured = false);
+  explicit ParticipantNumber(const BusConfig& config = {});
   ~ParticipantNumber();
   ParticipantNumber(const ParticipantNumber&) = delete;
   ParticipantNumber& operator=(const ParticipantNumber&) = delete;

@@ -49,9 +49,7 @@ class FastParticipant final : private eprosima::fastdds::dds::DomainParticipantL
   };
 
   FastParticipant(const BusConfig& config, BusEventHandler on_event)
-      : config_(config),
-        sink_(std::make_shared<EventSink>(std::move(on_event))),
-        number_(!config.security_dir.empty()) {}
+      : config_(config), sink_(std::make_shared<EventSink>(std::move(on_event))), number_(config) {}
   [[nodiscard]] Status Open();
 
   void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
