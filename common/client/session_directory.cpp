@@ -1,6 +1,8 @@
 #include "common/client/session_directory.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -25,11 +27,13 @@ class SessionDirectory::Impl {
              [this](const roster::SessionState& state, const bus::SampleInfo&) {
                const std::scoped_lock lock(mutex_);
                sessions_[state.session_id] = state;
+               heard_.notify_all();
              },
          .on_disposed =
              [this](const roster::SessionState& key) {
                const std::scoped_lock lock(mutex_);
                sessions_.erase(key.session_id);
+               heard_.notify_all();
              }});
     if (!states) {
       return states.error();
@@ -66,6 +70,39 @@ class SessionDirectory::Impl {
     return sessions;
   }
 
+  Result<std::vector<roster::SessionState>> List(Duration timeout) {
+    constexpr auto kAskAgain = std::chrono::milliseconds(200);  // one may open or close meanwhile
+    const auto until = std::chrono::steady_clock::now() + timeout;
+    if (Status host = WaitForHost(timeout); !host) {
+      return host.error();
+    }
+    for (;;) {
+      roster::Command command;
+      command.kind = roster::CommandKind::kCountSessions;
+      const auto reply = commands_->Ask(std::move(command), until);
+      if (!reply) {
+        return Error{reply.error().code, "list of sessions: " + reply.error().message};
+      }
+      const auto all_there = [&] { return std::to_string(sessions_.size()) == reply->message; };
+      {
+        std::unique_lock lock(mutex_);
+        heard_.wait_until(lock, std::min(until, std::chrono::steady_clock::now() + kAskAgain),
+                          all_there);
+        if (!all_there() && std::chrono::steady_clock::now() >= until) {
+          return Error{ErrorCode::kTimeout, "the session host says \"" + reply->message +
+                                                "\" to how many sessions it has, and " +
+                                                std::to_string(sessions_.size()) +
+                                                " are known within " +
+                                                std::to_string(ToSeconds(timeout)) + " s"};
+        }
+        if (!all_there()) {
+          continue;
+        }
+      }
+      return Sessions();
+    }
+  }
+
   Status Create(const std::string& name, Duration timeout) {
     if (Status host = WaitForHost(timeout); !host) {
       return host;
@@ -83,6 +120,7 @@ class SessionDirectory::Impl {
 
  private:
   mutable std::mutex mutex_;  // guards sessions_
+  std::condition_variable heard_;
   std::map<std::uint32_t, roster::SessionState> sessions_;
   std::unique_ptr<bus::Bus> own_bus_;  // outlives the endpoints, which are declared after it
   std::unique_ptr<Requester<roster::Command, roster::CommandReply>> commands_;
@@ -116,6 +154,9 @@ Result<std::unique_ptr<SessionDirectory>> SessionDirectory::Attach(bus::Bus& bus
 
 Status SessionDirectory::WaitForHost(Duration timeout) { return impl_->WaitForHost(timeout); }
 std::vector<roster::SessionState> SessionDirectory::Sessions() const { return impl_->Sessions(); }
+Result<std::vector<roster::SessionState>> SessionDirectory::List(Duration timeout) {
+  return impl_->List(timeout);
+}
 Status SessionDirectory::Create(const std::string& name, Duration timeout) {
   return impl_->Create(name, timeout);
 }

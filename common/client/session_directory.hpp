@@ -31,6 +31,11 @@ class SessionDirectory {
   /// Sessions that are there now, by name.
   [[nodiscard]] std::vector<roster::SessionState> Sessions() const;
 
+  /// All sessions of the host, by name: waits until as many are known as it says that it has. Fails
+  /// with kTimeout.
+  [[nodiscard]] Result<std::vector<roster::SessionState>> List(
+      Duration timeout = std::chrono::seconds(3));
+
   /// Fails with kUnavailable (no host), kTimeout (no answer) or kInvalidArgument (the host's
   /// reason).
   [[nodiscard]] Status Create(const std::string& name, Duration timeout = std::chrono::seconds(3));

@@ -24,6 +24,8 @@ enum class CommandKind : std::uint8_t {
   kLeaveSession =
       10,  ///< session host, in the session: `text` is the person, "" = all of the client
   kReleasePerson = 11,  ///< session host, in the session, from an operator: `text` is sent away
+  kCountSessions =
+      12,  ///< session host, where sessions are listed: the answer says how many, as a number
 };
 
 /// A request to a service (command topic, key client_uid).

@@ -116,6 +116,7 @@ CommandOutcome BodyCommands::Execute(const roster::Command& command, Time now,
     case roster::CommandKind::kCloseSession:
     case roster::CommandKind::kLeaveSession:
     case roster::CommandKind::kReleasePerson:
+    case roster::CommandKind::kCountSessions:
     case roster::CommandKind::kProfile:  // the worker's, which has the files
       break;
   }

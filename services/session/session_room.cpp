@@ -19,7 +19,8 @@ Status Take(Result<std::unique_ptr<Made>> made, std::unique_ptr<Made>& into) {
 bool IsForSession(roster::CommandKind kind) {
   using roster::CommandKind;
   return kind == CommandKind::kCreateSession || kind == CommandKind::kCloseSession ||
-         kind == CommandKind::kLeaveSession || kind == CommandKind::kReleasePerson;
+         kind == CommandKind::kLeaveSession || kind == CommandKind::kReleasePerson ||
+         kind == CommandKind::kCountSessions;
 }
 
 Result<std::unique_ptr<SessionRoom>> SessionRoom::Make(std::unique_ptr<bus::Bus> bus,

@@ -165,8 +165,11 @@ void SessionService::Handle(const Request& request, Time now) {
   roster::CommandReply reply;
   reply.client_uid = command.client_uid;
   reply.request_id = command.request_id;
+  std::string message = "done";
   Status done = Ok();
-  if (command.kind != roster::CommandKind::kCreateSession) {
+  if (command.kind == roster::CommandKind::kCountSessions) {
+    message = std::to_string(registry_.session_count());
+  } else if (command.kind != roster::CommandKind::kCreateSession) {
     done = registry_.Do(request.session, command, now);
   } else if (!config_.allow_create) {
     done = Error{ErrorCode::kUnavailable, "this host takes no new sessions (session.allow_create)"};
@@ -174,7 +177,7 @@ void SessionService::Handle(const Request& request, Time now) {
     done = created.error();
   }
   reply.accepted = done.ok();
-  reply.message = done ? "done" : done.error().message;
+  reply.message = done ? std::move(message) : done.error().message;
   answered_.Add(reply);
   Answer({request.session, std::move(reply)}, done.ok(), now);
 }

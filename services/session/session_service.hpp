@@ -28,10 +28,11 @@
 namespace limbcast::session {
 
 /// Serves sessions. The lobby, a partition of its own, tells which sessions there are and takes
-/// kCreateSession; everything else is asked in the partition of the session itself, which carries
-/// its roster too. Reader callbacks only enqueue (what does not fit is counted); all work is done
-/// in the first worker of the pool. What is answered or published has been written to the disk
-/// before; when the disk refuses, that is said in health and tried again, and sessions go on.
+/// kCreateSession and kCountSessions; everything else is asked in the partition of the session
+/// itself, which carries its roster too. Reader callbacks only enqueue (what does not fit is
+/// counted); all work is done in the first worker of the pool. What is answered or published has
+/// been written to the disk before; when the disk refuses, that is said in health and tried again,
+/// and sessions go on.
 class SessionService {
  public:
   /// Joins the partition of a session. Called on the worker.

@@ -80,13 +80,12 @@ int List(const service::ServiceCommandLine& line, const SessionOptions& options)
   if (!open) {
     return line.Fail(open.error());
   }
-  if (const Status host = open->directory->WaitForHost(DurationFromSeconds(options.timeout_s));
-      !host) {
-    return line.Fail(host.error());
+  const auto sessions = open->directory->List(DurationFromSeconds(options.timeout_s));
+  if (!sessions) {
+    return line.Fail(sessions.error());
   }
-  runtime::StopSignal().WaitFor(DurationFromSeconds(0.3));  // what is known comes after the match
   fmt::print("{:24} {:>6} {:>10}\n", "session", "people", "joinable");
-  for (const roster::SessionState& session : open->directory->Sessions()) {
+  for (const roster::SessionState& session : *sessions) {
     fmt::print("{:24} {:6} {:>10}\n", session.name, session.performer_count,
                session.open ? "yes" : "full");
   }

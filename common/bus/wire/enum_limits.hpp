@@ -38,7 +38,7 @@ template <>
 inline constexpr roster::Role kLastOf<roster::Role> = roster::Role::kOperator;
 template <>
 inline constexpr roster::CommandKind kLastOf<roster::CommandKind> =
-    roster::CommandKind::kReleasePerson;
+    roster::CommandKind::kCountSessions;
 
 static_assert(static_cast<std::size_t>(kLastOf<SampleVerdict>) + 1 == kSampleVerdictCount);
 static_assert(static_cast<std::size_t>(kLastOf<body::Segment>) + 1 == body::kSegmentCount);

@@ -115,7 +115,7 @@ LIMBCAST_FIELDS(roster::JoinReply) {
   F(client_uid), F(request_id), F(accepted), F(body_id), TEXT(partition, 64), TEXT(message, 255);
 }
 LIMBCAST_FIELDS(roster::Command) {
-  F(client_uid), F(request_id), F(body_id), ENUM(kind, roster::CommandKind::kReleasePerson);
+  F(client_uid), F(request_id), F(body_id), ENUM(kind, roster::CommandKind::kCountSessions);
   TEXT(text, 64), LIST(numbers, 64);
 }
 LIMBCAST_FIELDS(roster::CommandReply) {

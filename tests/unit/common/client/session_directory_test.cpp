@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 #include "common/bus/inproc/inproc_bus.hpp"
 
 namespace limbcast::client {
@@ -22,6 +25,16 @@ class SessionDirectoryTest : public ::testing::Test {
     commands_ = *bus_->MakeReader<roster::Command>(
         {.on_sample =
              [this](const roster::Command& command, const bus::SampleInfo&) {
+               if (command.kind == roster::CommandKind::kCountSessions) {
+                 counted_ += 1;
+                 EXPECT_TRUE(replies_
+                                 ->Write({.client_uid = command.client_uid,
+                                          .request_id = command.request_id,
+                                          .accepted = true,
+                                          .message = count_})
+                                 .ok());
+                 return;
+               }
                EXPECT_EQ(command.kind, roster::CommandKind::kCreateSession);
                const bool plain = command.text.find('*') == std::string::npos;
                EXPECT_TRUE(replies_
@@ -41,6 +54,8 @@ class SessionDirectoryTest : public ::testing::Test {
   }
   static auto Named(const std::string& name) { return Field(&roster::SessionState::name, name); }
 
+  std::string count_;  // what the host says to how many sessions there are
+  std::atomic<int> counted_ = 0;
   std::unique_ptr<bus::Bus> bus_ = bus::inproc::MakeBus(bus::inproc::MakeHub());
   std::unique_ptr<bus::Writer<roster::SessionState>> states_;
   std::unique_ptr<bus::Writer<roster::CommandReply>> replies_;
@@ -61,6 +76,28 @@ TEST_F(SessionDirectoryTest, TellsWhatSessionsThereAre) {
   closed.session_id = 2;
   ASSERT_TRUE(states_->Dispose(closed).ok());
   EXPECT_THAT((*directory)->Sessions(), ElementsAre(Named("stage"), Named("theatre")));
+}
+
+TEST_F(SessionDirectoryTest, AListWaitsForAsManyAsTheHostHas) {
+  StartHost();
+  Tell(2, "studio");
+  count_ = "2";
+  const auto directory = SessionDirectory::Attach(*bus_);
+  std::thread late([this] {
+    while (counted_ == 0) {
+      std::this_thread::yield();
+    }
+    Tell(1, "theatre");
+  });
+  const auto sessions = (*directory)->List(10s);
+  late.join();
+  ASSERT_TRUE(sessions.ok()) << sessions.error().message;
+  EXPECT_THAT(*sessions, ElementsAre(Named("studio"), Named("theatre")));
+  count_ = "3";
+  const auto short_of_one = (*directory)->List(1ms);
+  ASSERT_FALSE(short_of_one.ok());
+  EXPECT_EQ(short_of_one.error().code, ErrorCode::kTimeout);
+  EXPECT_THAT(short_of_one.error().message, HasSubstr("\"3\" to how many sessions it has, and 2"));
 }
 
 TEST_F(SessionDirectoryTest, CreatesAndPassesOnTheReasonOfARefusal) {

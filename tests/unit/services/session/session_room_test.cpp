@@ -23,14 +23,15 @@ TEST(SessionRoomTest, HearsWhatIsForTheSessionHostInItsOwnPartition) {
     const auto requests = *bus->MakeWriter<roster::JoinRequest>();
     const auto asks = *bus->MakeWriter<roster::Command>();
     ASSERT_TRUE(requests->Write(Asks(7, "Ada", 11)).ok());
-    for (int kind = 0; kind <= static_cast<int>(roster::CommandKind::kReleasePerson); ++kind) {
+    for (int kind = 0; kind <= static_cast<int>(roster::CommandKind::kCountSessions); ++kind) {
       ASSERT_TRUE(asks->Write(Command(7, static_cast<roster::CommandKind>(kind))).ok());
     }
   }
   EXPECT_EQ(joins, std::vector<std::uint64_t>{7});
   EXPECT_EQ(commands,
             (std::vector{roster::CommandKind::kCreateSession, roster::CommandKind::kCloseSession,
-                         roster::CommandKind::kLeaveSession, roster::CommandKind::kReleasePerson}));
+                         roster::CommandKind::kLeaveSession, roster::CommandKind::kReleasePerson,
+                         roster::CommandKind::kCountSessions}));
 }
 
 }  // namespace

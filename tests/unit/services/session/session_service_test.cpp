@@ -150,6 +150,7 @@ TEST_F(SessionServiceTest, SessionsAreListedCreatedAndClosed) {
   EXPECT_THAT(lobby.sessions, ElementsAre(Pair("stage", 0U)));
   EXPECT_TRUE(lobby.Ask(Command(9, CommandKind::kCreateSession, "studio")).accepted);
   EXPECT_THAT(lobby.sessions, UnorderedElementsAre(Pair("stage", 0U), Pair("studio", 0U)));
+  EXPECT_EQ(lobby.Ask(Command(9, CommandKind::kCountSessions)).message, "2");
   EXPECT_THAT(lobby.Ask(Command(9, CommandKind::kCreateSession, "studio")).message,
               HasSubstr("already"));
   EXPECT_FALSE(lobby.Ask(Command(9, CommandKind::kCloseSession, "studio")).accepted)

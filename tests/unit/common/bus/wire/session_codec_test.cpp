@@ -23,9 +23,9 @@ TEST(SessionCodecTest, WhatIsTooLongIsRefusedByName) {
 
 TEST(SessionCodecTest, NumbersThatAreNoEnumeratorsAreRefused) {
   wire::Command command;
-  command.kind(12);
+  command.kind(13);
   ExpectCorrupt<roster::Command>(command,
-                                 "command.kind has 12 as its number, at most 11 are allowed");
+                                 "command.kind has 13 as its number, at most 12 are allowed");
   wire::JoinRequest request;
   request.role(3);
   ExpectCorrupt<roster::JoinRequest>(
