@@ -72,9 +72,10 @@ double CoilSource::MomentPerAmpere(int coil) const {
 
 FieldAndJacobian CoilField(const CoilSource& source, int coil, double current_a,
                            const Eigen::Vector3d& p_emitter_m) {
+  const Eigen::Vector3d p_coil_m = p_emitter_m - source.centre_m.col(coil);
   Eigen::Vector3d p_loop_m;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    p_loop_m[i] = p_emitter_m[EmitterAxis(i, coil)];
+    p_loop_m[i] = p_coil_m[EmitterAxis(i, coil)];
   }
   const FieldAndJacobian loop =
       LoopField(source.radius_m, source.turns * source.moment_factor[coil] * current_a, p_loop_m);
@@ -87,6 +88,17 @@ FieldAndJacobian CoilField(const CoilSource& source, int coil, double current_a,
     }
   }
   return result;
+}
+
+FieldAndJacobian CoilsField(const CoilSource& source, const Eigen::Vector3d& currents_a,
+                            const Eigen::Vector3d& p_emitter_m) {
+  FieldAndJacobian sum;
+  for (int coil = 0; coil < 3; ++coil) {
+    const FieldAndJacobian one = CoilField(source, coil, currents_a[coil], p_emitter_m);
+    sum.field_tesla += one.field_tesla;
+    sum.jacobian_tesla_m += one.jacobian_tesla_m;
+  }
+  return sum;
 }
 
 Eigen::Matrix3d CoilFieldsPerAmpere(const CoilSource& source, const Eigen::Vector3d& p_emitter_m) {

@@ -34,13 +34,18 @@ struct FieldAndJacobian {
 [[nodiscard]] FieldAndJacobian LoopField(double radius_m, double ampere_turns,
                                          const Eigen::Vector3d& p_loop_m);
 
-/// A source of three concentric orthogonal coils; coil c has axis c of the emitter frame M.
-/// Defaults: the thesis' source (Roetenberg 2006, section 5.2.1; 0.713 A m² at 1.5 A).
+/// A source of three orthogonal coils; coil c has axis c of the emitter frame M. Defaults: the
+/// thesis' source (Roetenberg 2006, section 5.2.1; 0.713 A m² at 1.5 A), concentric.
 struct CoilSource {
   double radius_m = 0.055;  ///< mean radius of the winding. Range: [0.005, 1]
   double turns = 50.0;      ///< Range: [1, 10000]
   /// Calibrated factors of the moments: winding cross-section, turns miscounted. Range: [0.5, 2]
   Eigen::Vector3d moment_factor = Eigen::Vector3d::Ones();
+  /// Column c: centre of coil c in the emitter frame. Zero for concentric coils, whose fields are
+  /// the same at p and −p; coils apart (on a belt, a network) say on which side the sensor is.
+  Eigen::Matrix3d centre_m = Eigen::Matrix3d::Zero();
+
+  [[nodiscard]] bool concentric() const { return centre_m.isZero(0.0); }
 
   /// Moment of coil `coil` for one ampere, A m² / A.
   [[nodiscard]] double MomentPerAmpere(int coil) const;
@@ -53,6 +58,13 @@ struct CoilSource {
 /// @param current_a  signed.
 [[nodiscard]] FieldAndJacobian CoilField(const CoilSource& source, int coil, double current_a,
                                          const Eigen::Vector3d& p_emitter_m);
+
+/// Field of all coils together.
+///
+/// @param currents_a  of each, signed.
+[[nodiscard]] FieldAndJacobian CoilsField(const CoilSource& source,
+                                          const Eigen::Vector3d& currents_a,
+                                          const Eigen::Vector3d& p_emitter_m);
 
 /// Field of all coils, one ampere each; column c is coil c.
 [[nodiscard]] Eigen::Matrix3d CoilFieldsPerAmpere(const CoilSource& source,

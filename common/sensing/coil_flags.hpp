@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kAnyCoilOn = kCoilXOn | kCoilYOn | kCoilZOn;
 
 /// What a sample's flags say of the source while it was taken. Nothing when no pulse is on: the
 /// magnetometer shows the earth's field.
-[[nodiscard]] constexpr std::uint32_t CoilFlagsOf(const CoilDrive& drive) {
+[[nodiscard]] inline std::uint32_t CoilFlagsOf(const CoilDrive& drive) {
   if (!drive.settled) {
     return kCoilPulseActive;
   }
@@ -33,7 +33,7 @@ inline constexpr std::uint32_t kAnyCoilOn = kCoilXOn | kCoilYOn | kCoilZOn;
 /// The inverse. Flags that name more than one coil say nothing that can be used.
 ///
 /// @param current_a  of the source, > 0.
-[[nodiscard]] constexpr CoilDrive CoilDriveOf(std::uint32_t flags, double current_a) {
+[[nodiscard]] inline CoilDrive CoilDriveOf(std::uint32_t flags, double current_a) {
   CoilDrive drive;
   if ((flags & kCoilPulseActive) == 0) {
     return drive;

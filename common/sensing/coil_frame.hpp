@@ -7,10 +7,15 @@
 
 namespace limbcast::sensing {
 
+/// CoilDrive::coil when each coil carries its own tone (CoilTones).
+inline constexpr int kAllCoils = 3;
+
 /// What the source does while a magnetometer is read.
 struct CoilDrive {
-  int coil = -1;           ///< 0, 1, 2: this coil is on; −1: none
-  double current_a = 0.0;  ///< signed, of the plateau
+  int coil = -1;           ///< 0, 1, 2: this coil is on; −1: none; kAllCoils: tones
+  double current_a = 0.0;  ///< signed, of the plateau; with tones their amplitude
+  /// With tones, what flows in each coil; else of no meaning.
+  Eigen::Vector3d tones_a = Eigen::Vector3d::Zero();
   /// The current has settled: neither within the settling time after an edge nor in a slot that a
   /// source nearby was granted. False: the magnetometer's reading means nothing.
   bool settled = true;

@@ -20,6 +20,14 @@ Eigen::Vector3d SourceField_tesla(const sensing::CoilSource& source, const CoilC
          sensing::CoilField(source, current.coil, current.current_a, p_M).field_tesla;
 }
 
+Eigen::Vector3d SourceField_tesla(const sensing::CoilSource& source,
+                                  const Eigen::Vector3d& currents_a, const RigidMotion& emitter,
+                                  const Eigen::Vector3d& p_earth_m) {
+  const Eigen::Vector3d p_M =
+      emitter.R_earth_local.transpose() * (p_earth_m - emitter.p_earth_local_m);
+  return emitter.R_earth_local * sensing::CoilsField(source, currents_a, p_M).field_tesla;
+}
+
 MargErrors CoilSensorErrors(double mag_noise_tesla) {
   MargErrors errors;
   errors.gyro = {.noise_rthz = 8.7e-4,
@@ -56,6 +64,31 @@ void CoilStream::Pulse(int coil, double current_a) {
             .current_a = current_a};
 }
 
+sensing::CoilDrive CoilStream::Drive(double t_s, const RigidMotion& emitter,
+                                     const Eigen::Vector3d& p_m,
+                                     Eigen::Vector3d& field_E_tesla) const {
+  const double at_source_s = t_s - config_.pulses.clock_error_s;
+  if (config_.tones) {
+    sensing::CoilDrive drive;
+    if (at_source_s < config_.pulses.begin_s) {
+      return drive;
+    }
+    field_E_tesla += SourceField_tesla(
+        config_.source, sensing::ToneCurrents_a(*config_.tones, at_source_s), emitter, p_m);
+    drive.coil = sensing::kAllCoils;
+    drive.current_a = config_.tones->amplitude_a;
+    drive.tones_a = sensing::ToneCurrents_a(*config_.tones, t_s);
+    return drive;
+  }
+  const auto newest_at = [&](double at_s) {
+    return config_.on_demand ? asked_ : PulseAt(config_.pulses, at_s);
+  };
+  field_E_tesla += SourceField_tesla(
+      config_.source, TrueCurrent(config_.pulses, newest_at(at_source_s), at_source_s), emitter,
+      p_m);
+  return StatedDrive(config_.pulses, newest_at(t_s), t_s);
+}
+
 CoilTick CoilStream::Next() {
   const double t_s = static_cast<double>(tick_++) / config_.rate_hz;
   const RigidMotion sensor = config_.sensor(t_s);
@@ -65,14 +98,8 @@ CoilTick CoilStream::Next() {
   const double L = config_.gradient_reach_m;
   const Eigen::Vector3d levelled_m = L * ((p_m - p_begin_m_) / L).array().sin().matrix();
   Eigen::Vector3d added_E = config_.gradient_tesla_m * levelled_m;
-  const double at_source_s = t_s - config_.pulses.clock_error_s;
-  const auto newest_at = [&](double at_s) {
-    return config_.on_demand ? asked_ : PulseAt(config_.pulses, at_s);
-  };
-  const CoilCurrent current = TrueCurrent(config_.pulses, newest_at(at_source_s), at_source_s);
-  added_E += SourceField_tesla(config_.source, current, emitter, p_m);
   CoilTick tick;
-  tick.frame.drive = StatedDrive(config_.pulses, newest_at(t_s), t_s);
+  tick.frame.drive = Drive(t_s, emitter, p_m, added_E);
   for (const ForeignSource& other : config_.foreign) {
     added_E +=
         SourceField_tesla(config_.source, TrueCurrent(other.pulses, t_s), other.motion(t_s), p_m);

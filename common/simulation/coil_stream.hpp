@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/sensing/coil_field.hpp"
 #include "common/sensing/coil_frame.hpp"
+#include "common/sensing/coil_tones.hpp"
 #include "common/simulation/coil_pulses.hpp"
 #include "common/simulation/magnetic_world.hpp"
 #include "common/simulation/marg_model.hpp"
@@ -27,6 +29,8 @@ struct ForeignSource {
 struct CoilStreamConfig {
   CoilPulseConfig pulses;
   bool on_demand = false;  ///< no train: Pulse() says when and with which coil
+  /// Frequency multiplex in the place of pulses, from pulses.begin_s on; currents are regulated.
+  std::optional<sensing::CoilTones> tones;
   sensing::CoilSource source;
   MotionFunction sensor;         ///< the sensor's own axes and place
   MotionFunction emitter;        ///< the axes and centre of the coils
@@ -52,9 +56,13 @@ struct CoilTick {
 /// magnetometer reading; range 150 µT.
 [[nodiscard]] MargErrors CoilSensorErrors(double mag_noise_tesla);
 
-/// Field of a source at a place, both in the earth frame:  R_EM i B_c(R_MEᵀ (p − p_M)).
+/// Field of a source at a place, both in the earth frame:  R_EM Σ i_c B_c(R_MEᵀ (p − p_M)).
 [[nodiscard]] Eigen::Vector3d SourceField_tesla(const sensing::CoilSource& source,
                                                 const CoilCurrent& current,
+                                                const RigidMotion& emitter,
+                                                const Eigen::Vector3d& p_earth_m);
+[[nodiscard]] Eigen::Vector3d SourceField_tesla(const sensing::CoilSource& source,
+                                                const Eigen::Vector3d& currents_a,
                                                 const RigidMotion& emitter,
                                                 const Eigen::Vector3d& p_earth_m);
 
@@ -73,6 +81,10 @@ class CoilStream {
 
  private:
   CoilStreamConfig config_;
+  // Adds the field of the source to `field_E_tesla`; returns what it says that it does.
+  sensing::CoilDrive Drive(double t_s, const RigidMotion& emitter, const Eigen::Vector3d& p_m,
+                           Eigen::Vector3d& field_E_tesla) const;
+
   MargModel sensor_model_;
   MargModel emitter_model_;
   Eigen::Vector3d p_begin_m_;

@@ -13,6 +13,7 @@
 #include "common/simulation/random.hpp"
 #include "services/gateway/drivers/replay/recording_reader.hpp"
 #include "tools/limbcast/evaluate/coil_adaptive.hpp"
+#include "tools/limbcast/evaluate/coil_beyond.hpp"
 #include "tools/limbcast/evaluate/coil_endurance.hpp"
 #include "tools/limbcast/evaluate/coil_recording.hpp"
 #include "tools/limbcast/evaluate/coil_report.hpp"
@@ -31,6 +32,7 @@ struct CoilOptions {
   double hours = 0.0;
   int runs = 0;
   bool adaptive = false;
+  bool sources = false;
   std::string json;
 };
 
@@ -79,6 +81,13 @@ int EvaluatePulsing(const CoilOptions& options) {
   const auto results = OfEach<CoilAdaptiveResult>(options, experiments, &EvaluateAdaptive);
   fmt::print("{}", AdaptiveTable(results));
   return Save(options, AdaptiveJson(results, options.seed));
+}
+
+int EvaluateSources(const CoilOptions& options) {
+  const std::vector<CoilExperiment> experiments = MakeCoilExperiments(options.seed);
+  const auto results = OfEach<CoilBeyondResult>(options, experiments, &EvaluateBeyond);
+  fmt::print("{}", BeyondTable(results));
+  return Save(options, BeyondJson(results, options.seed));
 }
 
 int EvaluateRecordings(const CoilOptions& options) {
@@ -143,10 +152,13 @@ int EvaluateEndurance(const CoilOptions& options) {
 
 int EvaluateCoils(const CoilOptions& options) {
   const bool endurance = options.hours > 0.0 || options.runs > 0;
-  if ((endurance || options.adaptive) && !options.data.empty()) {
-    return Refuse(kCommand,
-                  {ErrorCode::kInvalidArgument,
-                   "--data is for recordings, --hours, --runs and --adaptive are for simulations"});
+  if ((endurance || options.adaptive || options.sources) && !options.data.empty()) {
+    return Refuse(kCommand, {ErrorCode::kInvalidArgument,
+                             "--data is for recordings; --hours, --runs, --adaptive and --sources "
+                             "are for simulations"});
+  }
+  if (options.sources) {
+    return EvaluateSources(options);
   }
   if (options.adaptive) {
     return EvaluatePulsing(options);
@@ -170,7 +182,8 @@ SubCommand AddEvaluateCoil(CLI::App& evaluate) {
       "  limbcast evaluate coil --json /tmp/coil.json\n"
       "  limbcast evaluate coil --data ../shared/data/broad --only 16\n"
       "  limbcast evaluate coil --hours 10 --runs 1000\n"
-      "  limbcast evaluate coil --adaptive");
+      "  limbcast evaluate coil --adaptive\n"
+      "  limbcast evaluate coil --sources");
   app->add_option("--seed", options->seed, "Seed of motions, errors and noise");
   app->add_option("--only", options->only,
                   "Only experiments or recordings whose name has this in it");
@@ -183,6 +196,8 @@ SubCommand AddEvaluateCoil(CLI::App& evaluate) {
       ->check(CLI::Range(0, 1'000'000));
   app->add_flag("--adaptive", options->adaptive,
                 "Pulses when the filter is uncertain, beside pulses in turn");
+  app->add_flag("--sources", options->sources,
+                "Sources that were not published: coils apart, and three tones at once");
   app->add_option("--json", options->json, "File for the figures");
   return {.app = app, .run = [options] { return EvaluateCoils(*options); }};
 }

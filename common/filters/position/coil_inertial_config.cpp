@@ -10,6 +10,8 @@ Status Validate(const CoilInertialConfig& c) {
                       {"source.turns", c.source.turns, 1.0, 1e4},
                       {"source.moment_factor", c.source.moment_factor.minCoeff(), 0.5, 2.0},
                       {"source.moment_factor", c.source.moment_factor.maxCoeff(), 0.5, 2.0},
+                      {"source.centre_m", c.source.centre_m.cwiseAbs().maxCoeff(), 0.0, 1.0},
+                      {"tone_window_s", c.tone_window_s, 0.05, 2.0},
                       {"sigma_mag_tesla", c.sigma_mag_tesla, 1e-10, 1e-5},
                       {"relative_field_error", c.relative_field_error, 0.0, 0.2},
                       {"walk_background_tesla_rts", c.walk_background_tesla_rts, 0.0, 1e-4},

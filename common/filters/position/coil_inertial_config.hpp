@@ -21,6 +21,9 @@ struct CoilInertialConfig {
   /// How much later than the accelerometer the sensor's gyro is.
   bool estimate_gyro_delay = true;
 
+  /// With tones (CoilTones): what a pulse is with pulses. Range: [0.05, 2]
+  double tone_window_s = 0.2;
+
   /// Noise of one magnetometer sample, one axis. Range: [1e-10, 1e-5]
   double sigma_mag_tesla = 50e-9;
   /// Of the coil's field: what the model does not say (winding, calibration). Range: [0, 0.2]

@@ -58,7 +58,8 @@ bool InertialFinite(const sensing::CoilFrame& frame) {
 
 CoilInertialFilter::CoilInertialFilter(const CoilInertialConfig& config)
     : config_(config),
-      collector_(config.sigma_mag_tesla, CoilPulseCollector::kBackgroundAfterLive) {}
+      collector_(config.sigma_mag_tesla, CoilPulseCollector::kBackgroundAfterLive,
+                 config.tone_window_s) {}
 
 Result<CoilInertialFilter> CoilInertialFilter::Make(const CoilInertialConfig& config) {
   if (const Status valid = Validate(config); !valid) {
@@ -143,8 +144,9 @@ void CoilInertialFilter::Level(const sensing::CoilFrame& frame) {
   sums_.emitter_accel += frame.emitter_accel_m_s2;
   sums_.emitter_gyro += frame.emitter_gyro_rad_s;
   ++sums_.count;
-  if (frame.drive.coil < 0 && frame.drive.settled && frame.mag_valid &&
-      frame.mag_tesla.allFinite()) {
+  // Tones go on while nothing moves; their mean is small.
+  if ((frame.drive.coil < 0 || frame.drive.coil == sensing::kAllCoils) && frame.drive.settled &&
+      frame.mag_valid && frame.mag_tesla.allFinite()) {
     sums_.mag += frame.mag_tesla;
     ++sums_.mag_count;
   }

@@ -101,7 +101,8 @@ class CoilInertialFilter {
   void UseGauges(const sensing::CoilFrame& frame);
   void GuardCovariance(CoilUpdateReport& report);
   void WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report);
-  void WatchPulses(const sensing::CoilFrame& frame, CoilUpdateReport& report);
+  void WatchPulses(const sensing::CoilFrame& frame, bool over, CoilUpdateReport& report);
+  [[nodiscard]] bool IsPulseOver(const sensing::CoilFrame& frame);
   void Lose(CoilUpdateReport& report);
   [[nodiscard]] CoilPath PathNow() const {
     return {state_.q_earth_sensor, state_.q_earth_emitter, state_.p_earth_m};
@@ -146,7 +147,8 @@ class CoilInertialFilter {
   int silent_samples_ = 0;               // of the pulse that is on
   int pulsed_coil_ = -1;                 // the coil of that pulse
   int silent_pulses_ = 0;                // in a row, of any coil
-  std::array<int, 3> silent_of_coil_{};  // in a row, of each
+  std::array<int, 4> silent_of_coil_{};  // in a row, of each; of all with tones
+  Time window_begun_at_{};               // of tones
   int rejected_in_a_row_ = 0;
   int losses_ = 0;
   int rebuilds_ = 0;

@@ -171,45 +171,49 @@ void CoilInertialFilter::EnterTracking(const sensing::CoilFrame& frame) {
   pulse_samples_ = pulses_seen_ = rejected_in_a_row_ = 0;
   silent_samples_ = silent_pulses_ = 0;
   silent_of_coil_.fill(0);
-  gravity_at_ = background_at_ = frame.measured_at;
+  gravity_at_ = background_at_ = window_begun_at_ = frame.measured_at;
   record_count_ = 1;
   records_[0].chain_begins = true;
   records_[0].measurement.fused = false;
 }
 
-void CoilInertialFilter::WatchPulses(const sensing::CoilFrame& frame, CoilUpdateReport& report) {
-  if (frame.drive.coil >= 0) {
-    pulsed_coil_ = frame.drive.coil;
-    silent_samples_ += report.coil_silent ? 1 : 0;
-  } else if (silent_samples_ > 0 || pulse_samples_ > 0) {
+// Pulses end by themselves. Tones go on: a window of them counts as a pulse.
+bool CoilInertialFilter::IsPulseOver(const sensing::CoilFrame& frame) {
+  if (frame.drive.coil != sensing::kAllCoils) {
+    return frame.drive.coil < 0;
+  }
+  const bool over = ToSeconds(frame.measured_at - window_begun_at_) >= config_.tone_window_s;
+  if (over) {
+    window_begun_at_ = frame.measured_at;
+  }
+  return over;
+}
+
+void CoilInertialFilter::WatchPulses(const sensing::CoilFrame& frame, bool over,
+                                     CoilUpdateReport& report) {
+  if (over && (silent_samples_ > 0 || pulse_samples_ > 0)) {
     int& of_coil = silent_of_coil_[static_cast<std::size_t>(pulsed_coil_)];
     const bool silent = silent_samples_ > pulse_samples_;
     of_coil = silent ? of_coil + 1 : 0;
     silent_pulses_ = silent ? silent_pulses_ + 1 : 0;
     silent_samples_ = 0;
   }
+  if (frame.drive.coil >= 0) {
+    pulsed_coil_ = frame.drive.coil;
+    silent_samples_ += report.coil_silent ? 1 : 0;
+  }
   report.coil_alarm =
       *std::max_element(silent_of_coil_.begin(), silent_of_coil_.end()) >= kSilentPulses;
 }
 
 void CoilInertialFilter::WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report) {
-  WatchPulses(frame, report);
+  const bool over = IsPulseOver(frame);
+  WatchPulses(frame, over, report);
   if (silent_pulses_ >= kSilentPulses) {
     Lose(report);  // the source is off, or the sensor is far from where it is taken to be
     return;
   }
-  if (frame.drive.coil >= 0) {
-    if (frame.drive.settled && report.nis > 0.0) {
-      constexpr double kMost = 100.0;  // one outlier is no loss of track
-      constexpr double kMostFirst = 60.0;
-      if (pulse_samples_ == 0) {
-        pulse_firsts_[static_cast<std::size_t>(pulses_seen_) % pulse_firsts_.size()] =
-            std::min(report.nis, kMostFirst);
-      }
-      pulse_nis_ += std::min(report.nis, kMost);
-      ++pulse_samples_;
-    }
-  } else if (pulse_samples_ > 0) {
+  if (over && pulse_samples_ > 0) {
     pulse_means_[static_cast<std::size_t>(pulses_seen_ % 3)] = pulse_nis_ / pulse_samples_;
     ++pulses_seen_;
     pulse_nis_ = 0.0;
@@ -222,6 +226,16 @@ void CoilInertialFilter::WatchTrack(const sensing::CoilFrame& frame, CoilUpdateR
       Lose(report);
       return;
     }
+  }
+  if (frame.drive.coil >= 0 && frame.drive.settled && report.nis > 0.0) {
+    constexpr double kMost = 100.0;  // one outlier is no loss of track
+    constexpr double kMostFirst = 60.0;
+    if (pulse_samples_ == 0) {
+      pulse_firsts_[static_cast<std::size_t>(pulses_seen_) % pulse_firsts_.size()] =
+          std::min(report.nis, kMostFirst);
+    }
+    pulse_nis_ += std::min(report.nis, kMost);
+    ++pulse_samples_;
   }
   const double range_m = state_.p_earth_m.norm();
   const double sigma_m = std::sqrt(P_.topLeftCorner<3, 3>().trace());

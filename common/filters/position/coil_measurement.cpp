@@ -12,10 +12,18 @@ constexpr double kGravity_m_s2 = 9.81;  // design/position.md section 1
 
 constexpr double kCurrentOff = 0.05;  // of what was stated
 
+sensing::FieldAndJacobian DrivenField(const sensing::CoilSource& source,
+                                      const sensing::CoilDrive& drive,
+                                      const Eigen::Vector3d& p_emitter_m) {
+  return drive.coil == sensing::kAllCoils
+             ? sensing::CoilsField(source, drive.tones_a, p_emitter_m)
+             : sensing::CoilField(source, drive.coil, drive.current_a, p_emitter_m);
+}
+
 }  // namespace
 
 bool IsCurrentWrong(const sensing::CoilDrive& drive) {
-  if (!std::isfinite(drive.current_a)) {
+  if (!std::isfinite(drive.current_a) || !drive.tones_a.allFinite()) {
     return true;
   }
   return drive.coil >= 0 && std::isfinite(drive.measured_a) &&
@@ -30,7 +38,7 @@ CoilPrediction PredictCoilSample(const sensing::CoilSource& source, const sensin
   if (drive.coil >= 0) {
     const Eigen::Matrix3d R_EM = state.q_earth_emitter.toRotationMatrix();
     const sensing::FieldAndJacobian f =
-        sensing::CoilField(source, drive.coil, drive.current_a, R_EM.transpose() * state.p_earth_m);
+        DrivenField(source, drive, R_EM.transpose() * state.p_earth_m);
     const Eigen::Vector3d b_E = R_EM * f.field_tesla;
     const Eigen::Matrix3d J = R_EM * f.jacobian_tesla_m * R_EM.transpose();
     field_E += b_E;

@@ -22,6 +22,9 @@ struct CoilPrediction {
 ///
 ///   y = R_sᵀ (m_e + b) ,  b = i R_m B_c(R_mᵀ p) ,  J = i R_m J_c R_mᵀ
 ///   H: p: R_sᵀ J ;  θ_s: R_sᵀ [m_e + b]× ;  θ_m: R_sᵀ (−[b]× + J [p]×) ;  m_e: R_sᵀ
+///
+/// With tones b is the sum over the coils of what flows in each at the instant of the sample;
+/// nothing is demodulated.
 [[nodiscard]] CoilPrediction PredictCoilSample(const sensing::CoilSource& source,
                                                const sensing::CoilDrive& drive,
                                                const CoilInertialState& state);

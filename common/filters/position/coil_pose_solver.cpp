@@ -139,6 +139,52 @@ double DescendFromMany(const Problem& problem, const CoilStart& first, double go
   return best_cost;
 }
 
+// Coils apart have different fields at p and −p, and say themselves where the sensor is; now and
+// then something between fits about as well. Descends from all eight octants, leaves the best in
+// `pose` that `rule` allows, and says whether no other fits.
+Hemisphere BestOfAllOctants(const Problem& problem, const HemisphereRule& rule, CoilStart& pose,
+                            double& cost) {
+  constexpr double kTold = 25.0;      // of cost apart: five sigma
+  constexpr double kElsewhere = 0.2;  // of |p|: another minimum
+  const std::optional<Eigen::Matrix3d> S = SignalMatrix(problem.observations);
+  if (!S) {
+    return Hemisphere::kUndecided;
+  }
+  std::array<CoilStart, 9> found;
+  std::array<double, 9> costs{};
+  found[8] = pose;
+  costs[8] = cost;
+  for (std::size_t octant = 0; octant < 8; ++octant) {
+    const Eigen::Vector3d signs((octant & 1U) != 0 ? -1.0 : 1.0, (octant & 2U) != 0 ? -1.0 : 1.0,
+                                (octant & 4U) != 0 ? -1.0 : 1.0);
+    CoilStart& start = found[octant];
+    start.p_emitter_sensor_m = signs.cwiseProduct(pose.p_emitter_sensor_m);
+    start.R_sensor_emitter = ProcrustesRotation(
+        *S, sensing::CoilFieldsPerAmpere(problem.source, start.p_emitter_sensor_m));
+    costs[octant] = Descend(problem, start);
+  }
+  std::size_t best = found.size();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (HemisphereOf(rule, found[i].p_emitter_sensor_m) != Hemisphere::kOpposite &&
+        (best == found.size() || costs[i] < costs[best])) {
+      best = i;
+    }
+  }
+  if (best == found.size()) {
+    return Hemisphere::kUndecided;
+  }
+  pose = found[best];
+  cost = costs[best];
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double apart_m = (found[i].p_emitter_sensor_m - pose.p_emitter_sensor_m).norm();
+    if (HemisphereOf(rule, found[i].p_emitter_sensor_m) != Hemisphere::kOpposite &&
+        apart_m > kElsewhere * pose.p_emitter_sensor_m.norm() && !(costs[i] > cost + kTold)) {
+      return Hemisphere::kUndecided;
+    }
+  }
+  return Hemisphere::kAsGiven;
+}
+
 void SetCovariance(const Problem& problem, const CoilStart& pose, CoilPose& result) {
   const Normal normal = Linearise(problem, pose);
   result.cost = normal.cost;
@@ -195,7 +241,8 @@ CoilPose SolveCoilPose(const CoilPoseConfig& config, const sensing::CoilSource& 
   if (!(cost < good_cost)) {
     cost = DescendFromMany(problem, *closed, good_cost, pose, cost, result.starts);
   }
-  const Hemisphere side = HemisphereOf(hemisphere, pose.p_emitter_sensor_m);
+  const Hemisphere side = source.concentric() ? HemisphereOf(hemisphere, pose.p_emitter_sensor_m)
+                                              : BestOfAllOctants(problem, hemisphere, pose, cost);
   if (side == Hemisphere::kOpposite) {
     pose.p_emitter_sensor_m = -pose.p_emitter_sensor_m;
     cost = Descend(problem, pose);

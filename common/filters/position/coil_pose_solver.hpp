@@ -49,7 +49,9 @@ struct CoilPose {
 
 /// Least squares with the exact field by Levenberg–Marquardt, Ψ ← Exp(θ) Ψ (design/position.md
 /// section 8): from `predicted` when given, else from the closed form; when the cost is not
-/// acceptable, from five radii in five directions with rotations by Procrustes.
+/// acceptable, from five radii in five directions with rotations by Procrustes. Of coils apart,
+/// from all eight octants: the signal says on which side the sensor is, `hemisphere` what is not
+/// allowed.
 ///
 ///   C = A⁻¹ + J_v P_vv J_vᵀ + floor
 ///

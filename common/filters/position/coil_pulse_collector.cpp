@@ -1,7 +1,9 @@
 #include "common/filters/position/coil_pulse_collector.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace limbcast::filters {
 
@@ -10,9 +12,14 @@ void CoilPulseCollector::Clear() {
   before_size_ = before_next_ = 0;
   now_size_ = plateau_size_ = 0;
   coil_ = -1;
+  tones_ = {};
+  tone_background_tesla_.reset();
 }
 
 bool CoilPulseCollector::Update(const sensing::CoilFrame& frame, const CoilPath& path) {
+  if (frame.drive.coil == sensing::kAllCoils) {
+    return UpdateTones(frame, path);
+  }
   const int coil = frame.drive.coil;
   bool finished = false;
   if (coil >= 0 && coil_ >= 0 && (coil != coil_ || now_size_ > plateau_size_)) {
@@ -94,6 +101,50 @@ bool CoilPulseCollector::Finish() {
   return done;
 }
 
+bool CoilPulseCollector::UpdateTones(const sensing::CoilFrame& frame, const CoilPath& path) {
+  ToneWindow& w = tones_;
+  if (w.samples == 0) {
+    w.begun_at = w.middle_at = frame.measured_at;
+    w.middle = path;
+  }
+  const double since_s = ToSeconds(frame.measured_at - w.begun_at);
+  if (since_s <= 0.5 * tone_window_s_) {
+    w.middle_at = frame.measured_at;
+    w.middle = path;
+  }
+  if (frame.drive.settled && frame.mag_valid && frame.mag_tesla.allFinite()) {
+    Eigen::Vector4d r;
+    r << 1.0, frame.drive.tones_a / frame.drive.current_a;
+    w.amplitude_a = frame.drive.current_a;
+    w.A += r * r.transpose();
+    w.b += r * (path.q_earth_sensor * frame.mag_tesla).transpose();
+    ++w.samples;
+  }
+  if (since_s < tone_window_s_) {
+    return false;
+  }
+  const ToneWindow whole = std::exchange(tones_, {});
+  const Eigen::LDLT<Eigen::Matrix4d> solver(whole.A);
+  constexpr double kLeastRcond = 1e-4;  // tones that cannot be told apart with what came
+  if (whole.samples < 8 || !solver.isPositive() || solver.rcond() < kLeastRcond) {
+    return false;
+  }
+  const Eigen::Matrix<double, 4, 3> a = solver.solve(whole.b);
+  const Eigen::Vector4d variance = solver.solve(Eigen::Matrix4d::Identity()).diagonal();
+  for (int coil = 0; coil < 3; ++coil) {
+    CollectedPulse& pulse = pulses_[static_cast<std::size_t>(coil)];
+    pulse.coil = coil;
+    pulse.current_a = whole.amplitude_a;
+    pulse.field_earth_tesla = a.row(coil + 1);
+    pulse.sigma_tesla = sigma_tesla_ * std::sqrt(variance[coil + 1]);
+    pulse.middle_at = whole.middle_at;
+    pulse.path = whole.middle;
+  }
+  size_ = pulses_.size();
+  tone_background_tesla_ = a.row(0);
+  return true;
+}
+
 std::optional<std::array<CoilObservation, 3>> CoilPulseCollector::Burst() const {
   if (size_ < pulses_.size() || pulses_[0].coil == pulses_[1].coil ||
       pulses_[0].coil == pulses_[2].coil || pulses_[1].coil == pulses_[2].coil) {
@@ -121,6 +172,9 @@ std::optional<std::array<CoilObservation, 3>> CoilPulseCollector::Burst() const 
 }
 
 Eigen::Vector3d CoilPulseCollector::background_earth_tesla() const {
+  if (tone_background_tesla_) {
+    return *tone_background_tesla_;
+  }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < before_size_; ++k) {
     sum += before_[k].field_earth_tesla;

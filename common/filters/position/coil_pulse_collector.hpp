@@ -34,15 +34,26 @@ struct CollectedPulse {
 ///   R_s y = m + a i :   a = Σ (i − ī) R_s y / Σ (i − ī)² ,   σ_a² = σ² / Σ (i − ī)²
 ///
 /// which is mean minus mean for a unipolar pulse and half the difference for a bipolar one. Keeps
-/// the last three pulses. Fixed size; thread-compatible.
+/// the last three pulses.
+///
+/// Tones (CoilTones) are three pulses at once: over a window,
+///
+///   R_s y = m + Σ_c a_c i_c   by least squares ,  σ_ac² = σ² (Σ r rᵀ)⁻¹_cc ,  r = [1, i_x, i_y,
+///   i_z]
+///
+/// with currents in amplitudes, and the path in the middle of the window. Fixed size;
+/// thread-compatible.
 class CoilPulseCollector {
  public:
   /// `background_after` of who cannot wait (design/position.md section 7).
   static constexpr int kBackgroundAfterLive = 3;
 
   /// @param background_after  a pulse is done after so many background samples, or with the next.
-  CoilPulseCollector(double sigma_tesla, int background_after)
-      : sigma_tesla_(sigma_tesla), background_after_(background_after) {}
+  /// @param tone_window_s     with tones, a window of so long is three pulses.
+  CoilPulseCollector(double sigma_tesla, int background_after, double tone_window_s = 0.2)
+      : sigma_tesla_(sigma_tesla),
+        background_after_(background_after),
+        tone_window_s_(tone_window_s) {}
 
   void Clear();
   /// Returns true when a pulse has just been completed. A pulse of which a sample is clipped is
@@ -56,7 +67,8 @@ class CoilPulseCollector {
   /// The three pulses as observations at the middle of the second. None until there are three, one
   /// of each coil.
   [[nodiscard]] std::optional<std::array<CoilObservation, 3>> Burst() const;
-  /// The latest mean of the background in the earth frame; zero when there was none.
+  /// The latest mean of the background in the earth frame, with tones that of their last window;
+  /// zero when there was none.
   [[nodiscard]] Eigen::Vector3d background_earth_tesla() const;
 
  private:
@@ -71,9 +83,24 @@ class CoilPulseCollector {
   };
 
   bool Finish();
+  bool UpdateTones(const sensing::CoilFrame& frame, const CoilPath& path);
+
+  // Normal equations of a window of tones.
+  struct ToneWindow {
+    int samples = 0;
+    Time begun_at{};
+    double amplitude_a = 0.0;
+    Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+    Eigen::Matrix<double, 4, 3> b = Eigen::Matrix<double, 4, 3>::Zero();
+    Time middle_at{};
+    CoilPath middle;
+  };
 
   double sigma_tesla_;
   int background_after_;
+  double tone_window_s_;
+  ToneWindow tones_;
+  std::optional<Eigen::Vector3d> tone_background_tesla_;
   std::array<CollectedPulse, 3> pulses_{};
   std::size_t size_ = 0;
   std::array<Sample, kBackground> before_{};

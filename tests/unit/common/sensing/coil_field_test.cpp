@@ -62,6 +62,36 @@ TEST(CoilFieldTest, IsSmoothThroughTheAxis) {
   EXPECT_NEAR(axis.jacobian_tesla_m(0, 0) / (0.3 * B_z / d2), 1.0, 1e-13);
 }
 
+TEST(CoilFieldTest, ACoilOffTheCentreIsTheSameFieldElsewhere) {
+  std::mt19937 rng(5);
+  CoilSource apart;
+  apart.centre_m.col(0) = Eigen::Vector3d(0.0, 0.12, 0.0);
+  apart.centre_m.col(2) = Eigen::Vector3d(-0.03, 0.02, 0.01);
+  EXPECT_TRUE(CoilSource{}.concentric());
+  EXPECT_FALSE(apart.concentric());
+  for (int trial = 0; trial < 30; ++trial) {
+    const int coil = trial % 3;
+    const Eigen::Vector3d p = RandomPoint(rng, 0.25, 1.0);
+    const FieldAndJacobian here = CoilField(apart, coil, 1.5, p);
+    const FieldAndJacobian there = CoilField({}, coil, 1.5, p - apart.centre_m.col(coil));
+    EXPECT_EQ(here.field_tesla, there.field_tesla);
+    EXPECT_EQ(here.jacobian_tesla_m, there.jacobian_tesla_m);
+    const Eigen::Vector3d mirrored = CoilField(apart, coil, 1.5, -p).field_tesla;
+    EXPECT_EQ((mirrored - here.field_tesla).norm() < 1e-12 * here.field_tesla.norm(), coil == 1)
+        << "only what is in the centre is the same on the other side";
+  }
+}
+
+TEST(CoilFieldTest, CoilsTogetherAreTheirSum) {
+  const Eigen::Vector3d p(0.2, -0.1, 0.3);
+  const Eigen::Vector3d currents_a(0.4, -0.7, 0.0);
+  const FieldAndJacobian all = CoilsField({}, currents_a, p);
+  const FieldAndJacobian x = CoilField({}, 0, 0.4, p);
+  const FieldAndJacobian y = CoilField({}, 1, -0.7, p);
+  EXPECT_LT((all.field_tesla - x.field_tesla - y.field_tesla).norm(), 1e-20);
+  EXPECT_LT((all.jacobian_tesla_m - x.jacobian_tesla_m - y.jacobian_tesla_m).norm(), 1e-18);
+}
+
 TEST(CoilFieldTest, JacobianIsSymmetricAndTraceless) {
   std::mt19937 rng(2);
   for (int trial = 0; trial < 100; ++trial) {

@@ -49,6 +49,29 @@ TEST(CoilStreamTest, ThePulseIsTheFieldOfTheCoilAboveTheBackground) {
   EXPECT_GT(on, 20);
 }
 
+TEST(CoilStreamTest, TonesAreTheFieldOfAllCoilsAboveTheBackground) {
+  CoilStreamConfig config = StillScene();
+  config.tones = sensing::CoilTones{};
+  const auto ticks = SimulateCoil(config, 2.0, 1);
+  const Eigen::Vector3d background = ticks.front().frame.mag_tesla;
+  int on = 0;
+  for (const CoilTick& tick : ticks) {
+    if (tick.frame.drive.coil != sensing::kAllCoils) {
+      EXPECT_LT(tick.frame.drive.coil, 0);
+      continue;
+    }
+    ++on;
+    EXPECT_TRUE(tick.frame.drive.settled);
+    const Eigen::Vector3d expected =
+        background + tick.q_sensor_emitter * sensing::CoilsField(config.source,
+                                                                 tick.frame.drive.tones_a,
+                                                                 tick.p_emitter_sensor_m)
+                                                 .field_tesla;
+    EXPECT_LT((tick.frame.mag_tesla - expected).norm(), 5e-9);
+  }
+  EXPECT_EQ(on, 120) << "from begin_s = 1 s on";
+}
+
 TEST(CoilStreamTest, IsTheSameForTheSameSeed) {
   CoilStreamConfig config = StillScene();
   config.errors = CoilSensorErrors(50e-9);

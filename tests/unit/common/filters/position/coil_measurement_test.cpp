@@ -23,8 +23,9 @@ CoilInertialState SomeState() {
 
 TEST(CoilMeasurementTest, HMatchesDifferences) {
   const CoilInertialState state = SomeState();
-  for (int coil = -1; coil < 3; ++coil) {
-    const sensing::CoilDrive drive{.coil = coil, .current_a = -1.5, .settled = true};
+  for (int coil = -1; coil <= sensing::kAllCoils; ++coil) {
+    const sensing::CoilDrive drive{
+        .coil = coil, .current_a = -1.5, .tones_a = {0.5, -0.3, 0.1}, .settled = true};
     const CoilPrediction at = PredictCoilSample({}, drive, state);
     for (int i = 0; i < Index::kAll; ++i) {
       const double h = i >= Index::kBackground ? 1e-9 : 1e-5;
@@ -95,6 +96,8 @@ TEST(CoilMeasurementTest, ACurrentIsWrongBeyondFivePercentOrWhenNotStated) {
   EXPECT_FALSE(wrong(0, 1.5, nan)) << "nobody measured it";
   EXPECT_FALSE(wrong(-1, 0.0, 0.2)) << "no coil is on";
   EXPECT_TRUE(wrong(0, nan, nan));
+  EXPECT_TRUE(
+      IsCurrentWrong({.coil = sensing::kAllCoils, .current_a = 0.7, .tones_a = {0.1, nan, 0.0}}));
 }
 
 }  // namespace

@@ -180,5 +180,33 @@ TEST(CoilPoseSolverTest, SaysWhyAPoseIsNotAccepted) {
   EXPECT_EQ(Solve(faint, faint.pulses).verdict, CoilPoseVerdict::kTooUncertain);
 }
 
+TEST(CoilPoseSolverTest, CoilsApartSayOnWhichSideTheSensorIs) {
+  sensing::CoilSource apart;
+  apart.centre_m.col(0) = Eigen::Vector3d(0.0, 0.12, 0.0);
+  apart.centre_m.col(1) = Eigen::Vector3d(0.0, -0.12, 0.0);
+  std::mt19937 rng(12);
+  int right = 0;
+  constexpr int kTrials = 300;
+  for (int i = 0; i < kTrials; ++i) {
+    Case given = MakeCase(rng, 0.3 + 0.001 * i, 0.0);
+    for (CoilObservation& o : given.pulses) {
+      o.sigma_tesla = kSigma_tesla;
+      o.field_tesla = PredictCoilField_tesla(apart, o, given.truth) + kSigma_tesla * Normal3(rng);
+    }
+    const CoilPose pose = SolveCoilPose({}, apart, given.pulses, {});
+    right += pose.verdict == CoilPoseVerdict::kAccepted &&
+                     pose.p_emitter_sensor_m.dot(given.truth.p_emitter_sensor_m) > 0.0
+                 ? 1
+                 : 0;
+    EXPECT_FALSE(pose.verdict == CoilPoseVerdict::kAccepted &&
+                 pose.p_emitter_sensor_m.dot(given.truth.p_emitter_sensor_m) < 0.0)
+        << "an undecided side is no answer, a wrong one is worse";
+    // Concentric coils cannot say it without a rule.
+    const Case concentric = MakeCase(rng, 0.3, kSigma_tesla);
+    EXPECT_EQ(SolveCoilPose({}, {}, concentric.pulses, {}).verdict, CoilPoseVerdict::kUndecided);
+  }
+  EXPECT_GE(right, kTrials * 4 / 5) << "of 30 to 60 cm";
+}
+
 }  // namespace
 }  // namespace limbcast::filters

@@ -6,6 +6,7 @@
 
 #include "common/filters/position/coil_pose_solver.hpp"
 #include "common/math/rotation.hpp"
+#include "common/sensing/coil_tones.hpp"
 #include "common/simulation/coil_pulses.hpp"
 
 namespace limbcast::filters {
@@ -64,6 +65,65 @@ TEST(CoilPulseCollectorTest, ABurstIsAtTheMiddleOfTheSecondPulse) {
   EXPECT_LT(((*burst)[1].R_pulse_reference_sensor - Eigen::Matrix3d::Identity()).norm(), 1e-12);
   EXPECT_NEAR((*burst)[0].time_from_reference_s, -0.2, 1e-6);
   EXPECT_NEAR((*burst)[2].time_from_reference_s, 0.2, 1e-6);
+}
+
+// The same sensor, with three tones at once whose fields differ. Returns windows seen.
+int PlayTones(double seconds, bool clipped, CoilPulseCollector& collector) {
+  const sensing::CoilTones tones;
+  int seen = 0;
+  for (int k = 0; k < static_cast<int>(120.0 * seconds); ++k) {
+    const double t_s = k / 120.0;
+    CoilPath path;
+    path.q_earth_sensor = math::ExpSO3(2.0 * t_s * Eigen::Vector3d(0.6, 0.0, 0.8));
+    sensing::CoilFrame frame;
+    frame.measured_at = TimeFromNanoseconds(0) + DurationFromSeconds(t_s);
+    frame.drive.coil = sensing::kAllCoils;
+    frame.drive.current_a = tones.amplitude_a;
+    frame.drive.tones_a = ToneCurrents_a(tones, t_s);
+    const Eigen::Vector3d shares = frame.drive.tones_a / tones.amplitude_a;
+    frame.mag_tesla =
+        path.q_earth_sensor.conjugate() *
+        (kEarth_tesla + (shares[0] - 2.0 * shares[1] + 0.5 * shares[2]) * kCoil_tesla);
+    frame.mag_valid = !clipped || k % 5 != 0;
+    seen += collector.Update(frame, path) ? 1 : 0;
+  }
+  return seen;
+}
+
+TEST(CoilPulseCollectorTest, AWindowOfTonesIsThreePulsesAtItsMiddle) {
+  for (const bool clipped : {false, true}) {
+    CoilPulseCollector collector(50e-9, 3, 0.2);
+    EXPECT_EQ(PlayTones(1.0, clipped, collector), 4);
+    const auto burst = collector.Burst();
+    ASSERT_TRUE(burst);
+    EXPECT_LT((collector.background_earth_tesla() - kEarth_tesla).norm(), 1e-12);
+    for (std::size_t coil = 0; coil < 3; ++coil) {
+      const CollectedPulse& pulse = collector.pulses()[coil];
+      const double share = coil == 0 ? 1.0 : coil == 1 ? -2.0 : 0.5;
+      EXPECT_EQ(pulse.coil, static_cast<int>(coil));
+      EXPECT_EQ(pulse.current_a, sensing::CoilTones{}.amplitude_a);
+      EXPECT_LT((pulse.field_earth_tesla - share * kCoil_tesla).norm(), 1e-12);
+      EXPECT_EQ((*burst)[coil].time_from_reference_s, 0.0);
+      // σ √(2/n) of a sine of unit amplitude (design/position.md section 7).
+      const double samples = clipped ? 20.0 : 25.0;
+      EXPECT_NEAR(pulse.sigma_tesla, 50e-9 * std::sqrt(2.0 / samples), 3e-9);
+    }
+  }
+}
+
+TEST(CoilPulseCollectorTest, AWindowWithTooFewReadingsSaysNothing) {
+  CoilPulseCollector collector(50e-9, 3, 0.2);
+  for (int k = 0; k < 60; ++k) {
+    const double t_s = k / 120.0;
+    sensing::CoilFrame frame;
+    frame.measured_at = TimeFromNanoseconds(0) + DurationFromSeconds(t_s);
+    frame.drive.coil = sensing::kAllCoils;
+    frame.drive.current_a = 1.0;
+    frame.drive.tones_a = ToneCurrents_a(sensing::CoilTones{}, t_s);
+    frame.mag_valid = k % 6 == 0;
+    EXPECT_FALSE(collector.Update(frame, {}));
+  }
+  EXPECT_FALSE(collector.Burst());
 }
 
 }  // namespace

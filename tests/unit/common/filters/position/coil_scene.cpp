@@ -7,9 +7,8 @@
 
 namespace limbcast::filters {
 
-std::vector<simulation::CoilTick> SwingingSensor(bool moving_source,
-                                                 const simulation::CoilPulseConfig& pulses,
-                                                 double duration_s, std::uint64_t seed) {
+simulation::CoilStreamConfig SwingStream(bool moving_source,
+                                         const simulation::CoilPulseConfig& pulses) {
   using simulation::Jet;
   const auto emitter = [moving_source](double t_s) {
     const Jet t = Jet::Variable(t_s);
@@ -36,7 +35,13 @@ std::vector<simulation::CoilTick> SwingingSensor(bool moving_source,
   };
   stream.errors = simulation::CoilSensorErrors(50e-9);
   stream.gradient_tesla_m.diagonal() = Eigen::Vector3d(2e-7, -3e-7, 1e-7);
-  return simulation::SimulateCoil(stream, duration_s, seed);
+  return stream;
+}
+
+std::vector<simulation::CoilTick> SwingingSensor(bool moving_source,
+                                                 const simulation::CoilPulseConfig& pulses,
+                                                 double duration_s, std::uint64_t seed) {
+  return simulation::SimulateCoil(SwingStream(moving_source, pulses), duration_s, seed);
 }
 
 void SpoilFrames(std::vector<simulation::CoilTick>& ticks, std::size_t first) {

@@ -11,6 +11,9 @@ namespace limbcast::filters {
 
 /// A sensor that swings 25 to 45 cm above a source that moves as well (or is fixed), for tests.
 /// Still for the first 2.5 s.
+[[nodiscard]] simulation::CoilStreamConfig SwingStream(bool moving_source,
+                                                       const simulation::CoilPulseConfig& pulses);
+/// A recording of it.
 [[nodiscard]] std::vector<simulation::CoilTick> SwingingSensor(
     bool moving_source, const simulation::CoilPulseConfig& pulses, double duration_s,
     std::uint64_t seed);
