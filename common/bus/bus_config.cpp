@@ -82,6 +82,10 @@ Status Validate(const BusConfig& config) {
   if (config.stream_depth < 1 || config.stream_depth > 1024) {
     return OutOfRange("stream_depth", "in [1, 1024]", std::to_string(config.stream_depth));
   }
+  if (config.send_loss_permille < 0 || config.send_loss_permille > 500) {
+    return OutOfRange("send_loss_permille", "in [0, 500]",
+                      std::to_string(config.send_loss_permille));
+  }
   return ValidateNames(config);
 }
 

@@ -64,6 +64,10 @@ struct BusConfig {
 
   /// Gather small samples into packets until Flush (Cyclone only; the others ignore it).
   bool write_batching = false;
+
+  /// So many of 1000 packets are not sent, to rehearse a bad network (Cyclone only; the others
+  /// ignore it). Range: [0, 500].
+  std::int32_t send_loss_permille = 0;
 };
 
 [[nodiscard]] Status Validate(const BusConfig& config);

@@ -39,18 +39,18 @@ struct Topic;
   }
 
 LIMBCAST_TOPIC(sensing::MargSample, "marg", QosProfile::kStream, false);
-LIMBCAST_TOPIC(sensing::MargFrame, "marg_frame", QosProfile::kStream, false);
+LIMBCAST_TOPIC(sensing::MargFrame, "marg_frame", QosProfile::kFrame, false);
 LIMBCAST_TOPIC(sensing::FusedOrientation, "orientation", QosProfile::kStream, false);
 LIMBCAST_TOPIC(sensing::CoilBurst, "coil_burst", QosProfile::kStream, false);
 LIMBCAST_TOPIC(sensing::MarkerPosition, "marker", QosProfile::kStream, false);
 LIMBCAST_TOPIC(sensing::PositionFix, "position_fix", QosProfile::kStream, false);
 LIMBCAST_TOPIC(sensing::SensorInfo, "sensor_info", QosProfile::kState, false);
 LIMBCAST_TOPIC(body::SegmentState, "segment_state", QosProfile::kStream, true);
-LIMBCAST_TOPIC(body::SegmentFrame, "segment_frame", QosProfile::kStream, true);
+LIMBCAST_TOPIC(body::SegmentFrame, "segment_frame", QosProfile::kFrame, true);
 LIMBCAST_TOPIC(body::SegmentTruth, "truth", QosProfile::kStream, false);
 LIMBCAST_TOPIC(body::BodyDefinition, "body_definition", QosProfile::kState, false);
-LIMBCAST_TOPIC(body::Skeleton, "skeleton", QosProfile::kStream, true);
-LIMBCAST_TOPIC(body::JointAngleFrame, "joint_angles", QosProfile::kStream, true);
+LIMBCAST_TOPIC(body::Skeleton, "skeleton", QosProfile::kFrame, true);
+LIMBCAST_TOPIC(body::JointAngleFrame, "joint_angles", QosProfile::kFrame, true);
 LIMBCAST_TOPIC(roster::RosterEntry, "roster", QosProfile::kState, false);
 LIMBCAST_TOPIC(roster::SessionState, "session", QosProfile::kState, false);
 LIMBCAST_TOPIC(roster::JoinRequest, "join_request", QosProfile::kCommand, false);

@@ -48,6 +48,7 @@ bus::BusConfig ReadBusConfig(const config::Section& section, bus::BusConfig defa
       section.Read("stream_lease_s", ToSeconds(config.stream_lease), 0.05, 60.0));
   config.stream_depth = section.Read("stream_depth", config.stream_depth, 1, 1024);
   config.write_batching = section.Read("write_batching", config.write_batching);
+  config.send_loss_permille = section.Read("send_loss_permille", config.send_loss_permille, 0, 500);
   return config;
 }
 

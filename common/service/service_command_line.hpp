@@ -13,8 +13,8 @@ namespace limbcast::service {
 
 /// Reads a [bus] table. Keys: dds ("cyclone" | "fast" | "inproc"), domain_id, partition, network
 /// ("loopback" | "lan" | interfaces, separated by commas), peers, security_dir, security_role,
-/// ownership_strength, stream_lease_s, stream_depth, write_batching. Refusals are remembered in the
-/// section's file.
+/// ownership_strength, stream_lease_s, stream_depth, write_batching, send_loss_permille. Refusals
+/// are remembered in the section's file.
 [[nodiscard]] bus::BusConfig ReadBusConfig(const config::Section& section,
                                            bus::BusConfig defaults = {});
 

@@ -28,6 +28,8 @@ struct PeerOptions {
   std::string partition = {};  // "" = that of the test
   std::int32_t strength = 10;
   std::chrono::milliseconds lease{2000};
+  std::int32_t depth = bus::BusConfig().stream_depth;
+  std::int32_t loss_permille = 0;  // of the packets that it sends (Cyclone DDS)
 };
 
 /// One test on one pair: its own domain and partition, readers in this process, writers in peers.
@@ -60,18 +62,21 @@ class BusConformance : public ::testing::TestWithParam<Pair> {
     const std::string partition = options.partition.empty() ? partition_ : options.partition;
     Ok(peer, "open " + NameOf(GetParam().writer) + " " + std::to_string(domain_) + " " + partition +
                  " " + std::to_string(options.strength) + " " +
-                 std::to_string(options.lease.count()));
+                 std::to_string(options.lease.count()) + " " + std::to_string(options.depth) + " " +
+                 std::to_string(options.loss_permille));
   }
 
   [[nodiscard]] std::unique_ptr<bus::Bus> OpenBus(
       const std::string& partition = "",
-      std::chrono::milliseconds lease = std::chrono::milliseconds(2000)) {
+      std::chrono::milliseconds lease = std::chrono::milliseconds(2000),
+      std::int32_t depth = bus::BusConfig().stream_depth) {
     bus::BusConfig config;
     config.vendor = GetParam().reader;
     config.domain_id = domain_;
     config.partition = partition.empty() ? partition_ : partition;
     config.participant_name = "limbcast-conformance";
     config.stream_lease = lease;
+    config.stream_depth = depth;
     auto opened = bus::Open(config, events_.Handler());
     if (!opened) {
       ADD_FAILURE() << opened.error().message;

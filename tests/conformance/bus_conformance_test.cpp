@@ -33,6 +33,9 @@ INSTANTIATE_TEST_SUITE_P(Pairs, SlowReaderConformance,
                                            kFastToCyclone),
                          Name);
 
+INSTANTIATE_TEST_SUITE_P(Pairs, LossyConformance, ::testing::Values(kCycloneTwo, kCycloneToFast),
+                         Name);
+
 INSTANTIATE_TEST_SUITE_P(Pairs, ProcessConformance,
                          ::testing::Values(kCycloneTwo, kFastTwo, kCycloneToFast, kFastToCyclone),
                          Name);

@@ -226,6 +226,27 @@ TEST_P(DdsConformance, SuccessorOfAWriterThatLeftDisposesOfItsInstancesAndWrites
   check(bus::TypeTag<SegmentState>{});
 }
 
+/// A writer on Cyclone DDS, which can lose packets on purpose, in a process of its own.
+class LossyConformance : public BusConformance {};
+
+TEST_P(LossyConformance, EverySampleArrivesOnceAndInOrderThoughOnePacketInTenIsLost) {
+  constexpr std::uint32_t kSensors = 3;
+  constexpr std::uint32_t kRounds = 300;
+  constexpr std::int32_t kDepth = 1024;  // nothing is overwritten before it is asked for again
+  Collector<MargSample> collector;
+  const auto peer = OpenPeer({.depth = kDepth, .loss_permille = 100});
+  const auto bus = OpenBus("", std::chrono::milliseconds(2000), kDepth);
+  const auto reader = Read(*bus, collector);
+  Connect(*peer, collector);
+  Write(*peer, "marg", 1, kSensors, 1, kRounds, std::chrono::milliseconds(2));
+  ASSERT_TRUE(collector.WaitForCount(kSensors * kRounds));
+  for (std::uint32_t key = 1; key <= kSensors; ++key) {
+    EXPECT_EQ(collector.SequencesOf(key), Counting(1, kRounds)) << "sensor " << key;
+  }
+  EXPECT_EQ(reader->counters().lost, 0U);
+  EXPECT_TRUE(collector.AllIntact());
+}
+
 /// Cases that need a process to kill; every pair has two processes.
 class ProcessConformance : public BusConformance {
  protected:

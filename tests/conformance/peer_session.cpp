@@ -46,7 +46,7 @@ std::string PeerSession::Do(const std::string& line) {
 
 Result<std::string> PeerSession::Dispatch(const Words& words) {
   const std::string& verb = words[0];
-  if (verb == "open" && words.size() == 6) {
+  if (verb == "open" && words.size() == 8) {
     return Open(words);
   }
   if (verb == "write" && words.size() == 7) {
@@ -103,6 +103,8 @@ Result<std::string> PeerSession::Open(const Words& words) {
   config_.partition = words[3] == "-" ? "" : words[3];
   config_.ownership_strength = static_cast<std::int32_t>(Number(words[4]));
   config_.stream_lease = std::chrono::milliseconds(Number(words[5]));
+  config_.stream_depth = static_cast<std::int32_t>(Number(words[6]));
+  config_.send_loss_permille = static_cast<std::int32_t>(Number(words[7]));
   config_.participant_name = "limbcast-conformance-peer";
   auto opened = bus::Open(config_, [this](const bus::BusEvent& event) {
     const std::lock_guard lock(events_mutex_);

@@ -19,7 +19,7 @@ namespace limbcast::conformance {
 /// it within its own process or in another one (bus_peer). Every reply is one line, "ok ..." or
 /// "error <why>". Thread-compatible.
 ///
-///   open <vendor> <domain> <partition or -> <strength> <lease_ms>
+///   open <vendor> <domain> <partition or -> <strength> <lease_ms> <depth> <loss_permille>
 ///   writer <topic>                    drop <topic>
 ///   write <topic> <first_key> <keys> <first_sequence> <rounds> <period_us>
 ///       writes each of the keys once in each round     -> ok <nanoseconds that took>

@@ -105,13 +105,21 @@ std::string DomainXml(const BusConfig& config) {
          // cannot decipher yet, then drops both, and neither library repeats the handshake. The
          // default of 10 ms passes before the handshake is over when cores are busy.
          "<PreEmptiveAckDelay>" +
-         (config.security_dir.empty() ? "10 ms" : "250 ms") +
+         (config.security_dir.empty() ? "10 ms" : "2 s") +
          "</PreEmptiveAckDelay>"
+         // What a reader misses it asks for this long after a heartbeat says so, and what came
+         // later waits for it. The default of 100 ms is ten ticks without a pose, and longer than
+         // the history of frames.
+         "<NackDelay>2 ms</NackDelay>"
          // Fast DDS needs it to know whom a dispose means, see cyclone_sertype.cpp.
          "<GenerateKeyhash>true</GenerateKeyhash>"
          "<WriteBatch>" +
-         (config.write_batching ? "true" : "false") +
-         "</WriteBatch></Internal></Domain></CycloneDDS>";
+         (config.write_batching ? "true" : "false") + "</WriteBatch>" +
+         (config.send_loss_permille > 0
+              ? "<Test><XmitLossiness>" + std::to_string(config.send_loss_permille) +
+                    "</XmitLossiness></Test>"
+              : "") +
+         "</Internal></Domain></CycloneDDS>";
 }
 
 Result<std::shared_ptr<CycloneDomain>> CycloneDomain::Join(const BusConfig& config) {

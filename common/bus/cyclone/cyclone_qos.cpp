@@ -31,6 +31,7 @@ Row RowOf(QosProfile profile, const BusConfig& config) {
       return {DDS_DURABILITY_VOLATILE,  DDS_HISTORY_KEEP_ALL, 1, 256, 512,
               DDS_LIVELINESS_AUTOMATIC, DDS_INFINITY};
     case QosProfile::kStream:
+    case QosProfile::kFrame:
       break;
   }
   return {DDS_DURABILITY_VOLATILE,    DDS_HISTORY_KEEP_LAST, config.stream_depth,
@@ -70,7 +71,11 @@ Qos EndpointQos(const Row& row, bool exclusive, const BusConfig& config) {
 }  // namespace
 
 Qos WriterQos(QosProfile profile, bool exclusive, const BusConfig& config) {
-  return EndpointQos(RowOf(profile, config), exclusive, config);
+  Row row = RowOf(profile, config);
+  if (profile == QosProfile::kFrame) {
+    row.depth = FrameDepth(row.depth);
+  }
+  return EndpointQos(row, exclusive, config);
 }
 
 Qos ReaderQos(QosProfile profile, bool exclusive, const BusConfig& config) {

@@ -47,6 +47,7 @@ constexpr Row RowOf(QosProfile profile, const BusConfig& config) {
               dds::AUTOMATIC_LIVELINESS_QOS,
               false};
     case QosProfile::kStream:
+    case QosProfile::kFrame:
       break;
   }
   return {dds::VOLATILE_DURABILITY_QOS,
@@ -98,7 +99,10 @@ Qos CommonQos(const Row& row, bool exclusive, const BusConfig& config) {
 }  // namespace
 
 dds::DataWriterQos WriterQos(QosProfile profile, bool exclusive, const BusConfig& config) {
-  const Row row = RowOf(profile, config);
+  Row row = RowOf(profile, config);
+  if (profile == QosProfile::kFrame) {
+    row.depth = row.max_samples_per_instance = FrameDepth(row.depth);
+  }
   auto qos = CommonQos<dds::DataWriterQos>(row, exclusive, config);
   if (exclusive) {
     qos.ownership_strength().value = static_cast<std::uint32_t>(config.ownership_strength);

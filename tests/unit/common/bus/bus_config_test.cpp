@@ -34,6 +34,9 @@ TEST(BusConfigTest, WhatIsOutOfRangeIsNamedWithItsLimit) {
             "bus.stream_lease_s must be in [0.05, 60], is 0.049000");
   EXPECT_EQ(Refusal({.stream_lease = seconds(61)}),
             "bus.stream_lease_s must be in [0.05, 60], is 61.000000");
+  EXPECT_EQ(Refusal({.send_loss_permille = 500}), "");
+  EXPECT_EQ(Refusal({.send_loss_permille = 501}),
+            "bus.send_loss_permille must be in [0, 500], is 501");
   EXPECT_EQ(Refusal({.stream_depth = 0}), "bus.stream_depth must be in [1, 1024], is 0");
   EXPECT_EQ(Refusal({.stream_depth = 1025}), "bus.stream_depth must be in [1, 1024], is 1025");
   EXPECT_EQ(Refusal({.partition = std::string(65, 'p')}),

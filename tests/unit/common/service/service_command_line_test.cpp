@@ -47,6 +47,7 @@ peers = ["10.0.0.2"]
 ownership_strength = 20
 stream_lease_s = 0.25
 stream_depth = 32
+send_loss_permille = 20
 write_batching = true
 security_dir = "credentials"
 security_role = "operator"
@@ -62,6 +63,7 @@ security_role = "operator"
   EXPECT_EQ(bus->ownership_strength, 20);
   EXPECT_EQ(bus->stream_lease, std::chrono::milliseconds(250));
   EXPECT_EQ(bus->stream_depth, 32);
+  EXPECT_EQ(bus->send_loss_permille, 20);
   EXPECT_EQ(bus->security_dir, "credentials");
   EXPECT_EQ(bus->security_role, "operator");
   EXPECT_TRUE(bus->write_batching);

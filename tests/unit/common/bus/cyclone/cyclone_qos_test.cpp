@@ -39,6 +39,15 @@ TEST(CycloneQosTest, AStreamKeepsTheLastFewAndProvesThatItPublishes) {
   EXPECT_EQ(qos.ownership, DDS_OWNERSHIP_SHARED);
 }
 
+TEST(CycloneQosTest, AWriterKeepsHalfAsManyFramesAsOtherSamplesAndAReaderAsMany) {
+  const BusConfig config{.stream_depth = 16};
+  EXPECT_EQ(Read(WriterQos(QosProfile::kFrame, false, config)).depth, 8);
+  EXPECT_EQ(Read(ReaderQos(QosProfile::kFrame, false, config)).depth, 16);
+  EXPECT_EQ(Read(WriterQos(QosProfile::kFrame, false, {.stream_depth = 1})).depth, 1);
+  EXPECT_EQ(Read(WriterQos(QosProfile::kFrame, false, config)).liveliness,
+            DDS_LIVELINESS_MANUAL_BY_TOPIC);
+}
+
 TEST(CycloneQosTest, AStateIsKeptForLateJoiners) {
   const Read qos(WriterQos(QosProfile::kState, false, {}));
   EXPECT_EQ(qos.reliability, DDS_RELIABILITY_RELIABLE);

@@ -23,6 +23,15 @@ TEST(FastQosTest, AStreamKeepsTheLastFewAndProvesThatItPublishes) {
   EXPECT_EQ(qos.publish_mode().kind, dds::SYNCHRONOUS_PUBLISH_MODE);
 }
 
+TEST(FastQosTest, AWriterKeepsHalfAsManyFramesAsOtherSamplesAndAReaderAsMany) {
+  BusConfig config;
+  config.stream_depth = 16;
+  EXPECT_EQ(WriterQos(QosProfile::kFrame, false, config).history().depth, 8);
+  EXPECT_EQ(ReaderQos(QosProfile::kFrame, false, config).history().depth, 16);
+  config.stream_depth = 1;
+  EXPECT_EQ(WriterQos(QosProfile::kFrame, false, config).history().depth, 1);
+}
+
 TEST(FastQosTest, AStateIsKeptForLateJoinersWhoHearOfItWithinATenthOfASecond) {
   const auto qos = WriterQos(QosProfile::kState, false, {});
   EXPECT_EQ(qos.durability().kind, dds::TRANSIENT_LOCAL_DURABILITY_QOS);
@@ -46,15 +55,19 @@ TEST(FastQosTest, CommandsAreAllKeptWithinLimitsAndBlockAtMost100Milliseconds) {
 
 TEST(FastQosTest, LimitsAgreeWithEachOtherForEveryProfileAndDepth) {
   // The library makes no endpoint otherwise.
-  for (const QosProfile profile : {QosProfile::kStream, QosProfile::kState, QosProfile::kCommand}) {
+  for (const QosProfile profile :
+       {QosProfile::kStream, QosProfile::kFrame, QosProfile::kState, QosProfile::kCommand}) {
     for (const std::int32_t depth : {1, 16, 1024}) {
       BusConfig config;
       config.stream_depth = depth;
       const auto reader = ReaderQos(profile, false, config);
-      const auto& limits = reader.resource_limits();
-      EXPECT_GE(limits.max_instances, 64);
-      EXPECT_EQ(limits.max_samples, limits.max_instances * limits.max_samples_per_instance);
-      EXPECT_LE(limits.allocated_samples, limits.max_samples);
+      const auto writer = WriterQos(profile, false, config);
+      for (const auto& limits : {reader.resource_limits(), writer.resource_limits()}) {
+        EXPECT_GE(limits.max_instances, 64);
+        EXPECT_EQ(limits.max_samples, limits.max_instances * limits.max_samples_per_instance);
+        EXPECT_LE(limits.allocated_samples, limits.max_samples);
+      }
+      EXPECT_GE(writer.resource_limits().max_samples_per_instance, writer.history().depth);
     }
   }
 }
