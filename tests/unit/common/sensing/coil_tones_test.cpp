@@ -42,13 +42,15 @@ TEST(CoilTonesTest, RefusesWhatAMagnetometerCannotTellApart) {
   };
   const CoilTones good;
   EXPECT_EQ(refusal(good, 120.0), "accepted");
-  EXPECT_THAT(refusal(good, 99.0), HasSubstr("tones.frequency_hz[2] must be in [15.000000, 39.600000]"));
+  EXPECT_THAT(refusal(good, 99.0),
+              HasSubstr("tones.frequency_hz[2] must be in [15.000000, 39.600000]"));
   CoilTones tones = good;
   tones.frequency_hz[0] = 14.0;
   EXPECT_THAT(refusal(tones, 120.0), HasSubstr("tones.frequency_hz[0]"));
   tones = good;
   tones.frequency_hz = {18.0, 40.0, 27.0};
-  EXPECT_THAT(refusal(tones, 120.0), HasSubstr("tones.frequency_hz apart by must be in [10.000000, inf]"));
+  EXPECT_THAT(refusal(tones, 120.0),
+              HasSubstr("tones.frequency_hz apart by must be in [10.000000, inf]"));
   tones.frequency_hz = {40.0, 30.0, 20.0};
   EXPECT_EQ(refusal(tones, 120.0), "accepted") << "exactly 2 / T, in any order";
   tones = good;
