@@ -15,15 +15,26 @@ namespace {
 const Eigen::Vector3d kEarth_tesla(0.0, 19e-6, -45e-6);
 const Eigen::Vector3d kCoil_tesla(1e-6, -2e-6, 0.5e-6);  // earth frame, at full current
 
-// A sensor that turns at 2 rad/s; the field is the same for all coils. Returns pulses seen.
+// A sensor that turns at 2 rad/s.
+CoilPath TurnedAt(double t_s) {
+  CoilPath path;
+  path.q_earth_sensor = math::ExpSO3(2.0 * t_s * Eigen::Vector3d(0.6, 0.0, 0.8));
+  return path;
+}
+
+sensing::CoilFrame FrameAt(double t_s) {
+  sensing::CoilFrame frame;
+  frame.measured_at = TimeFromNanoseconds(0) + DurationFromSeconds(t_s);
+  return frame;
+}
+
+// Pulses on that sensor; the field is the same for all coils. Returns pulses seen.
 int Play(const simulation::CoilPulseConfig& pulses, double seconds, CoilPulseCollector& collector) {
   int seen = 0;
   for (int k = 0; k < static_cast<int>(120.0 * seconds); ++k) {
     const double t_s = k / 120.0;
-    CoilPath path;
-    path.q_earth_sensor = math::ExpSO3(2.0 * t_s * Eigen::Vector3d(0.6, 0.0, 0.8));
-    sensing::CoilFrame frame;
-    frame.measured_at = TimeFromNanoseconds(0) + DurationFromSeconds(t_s);
+    const CoilPath path = TurnedAt(t_s);
+    sensing::CoilFrame frame = FrameAt(t_s);
     frame.drive = simulation::StatedDrive(pulses, t_s);
     const simulation::CoilCurrent current = simulation::TrueCurrent(pulses, t_s);
     frame.mag_tesla = path.q_earth_sensor.conjugate() *
@@ -73,10 +84,8 @@ int PlayTones(double seconds, bool clipped, CoilPulseCollector& collector) {
   int seen = 0;
   for (int k = 0; k < static_cast<int>(120.0 * seconds); ++k) {
     const double t_s = k / 120.0;
-    CoilPath path;
-    path.q_earth_sensor = math::ExpSO3(2.0 * t_s * Eigen::Vector3d(0.6, 0.0, 0.8));
-    sensing::CoilFrame frame;
-    frame.measured_at = TimeFromNanoseconds(0) + DurationFromSeconds(t_s);
+    const CoilPath path = TurnedAt(t_s);
+    sensing::CoilFrame frame = FrameAt(t_s);
     frame.drive.coil = sensing::kAllCoils;
     frame.drive.current_a = tones.amplitude_a;
     frame.drive.tones_a = ToneCurrents_a(tones, t_s);
@@ -115,8 +124,7 @@ TEST(CoilPulseCollectorTest, AWindowWithTooFewReadingsSaysNothing) {
   CoilPulseCollector collector(50e-9, 3, 0.2);
   for (int k = 0; k < 60; ++k) {
     const double t_s = k / 120.0;
-    sensing::CoilFrame frame;
-    frame.measured_at = TimeFromNanoseconds(0) + DurationFromSeconds(t_s);
+    sensing::CoilFrame frame = FrameAt(t_s);
     frame.drive.coil = sensing::kAllCoils;
     frame.drive.current_a = 1.0;
     frame.drive.tones_a = ToneCurrents_a(sensing::CoilTones{}, t_s);
