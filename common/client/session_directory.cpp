@@ -64,6 +64,7 @@ class SessionDirectory::Impl {
       by_name[state.name] = state;
     }
     std::vector<roster::SessionState> sessions;
+    sessions.reserve(by_name.size());
     for (auto& [name, state] : by_name) {
       sessions.push_back(std::move(state));
     }

@@ -177,7 +177,7 @@ void SessionService::Handle(const Request& request, Time now) {
     done = created.error();
   }
   reply.accepted = done.ok();
-  reply.message = done ? std::move(message) : done.error().message;
+  reply.message = done ? message : done.error().message;
   answered_.Add(reply);
   Answer({request.session, std::move(reply)}, done.ok(), now);
 }

@@ -15,17 +15,22 @@ class SlowReaderConformance : public BusConformance {};
 
 TEST_P(SlowReaderConformance, ReaderThatHangsDoesNotHoldTheWriterBack) {
   constexpr std::uint32_t kSamples = 2000;
-  Collector<MargSample> collector;
-  const auto peer = OpenPeer();
-  const auto bus = OpenBus();
-  const auto reader = Read(*bus, collector);
-  Connect(*peer, collector);
-  collector.Shut();
-  const auto took = Write(*peer, "marg", 1, 1, 1, kSamples);  // every single one must succeed
-  EXPECT_LT(took, std::chrono::seconds(5));                   // one blocked write costs 100 ms
-  collector.Open();
-  EXPECT_TRUE(collector.WaitForSample(1, kSamples)) << "the newest is never lost";
-  EXPECT_TRUE(collector.AllIntact());
+  const auto check = [&]<typename T>(bus::TypeTag<T>) {
+    const std::string topic(bus::Topic<T>::kShortName);
+    Collector<T> collector;
+    const auto peer = OpenPeer();
+    const auto bus = OpenBus();
+    const auto reader = Read(*bus, collector);
+    Connect(*peer, collector);
+    collector.Shut();
+    const auto took = Write(*peer, topic, 1, 1, 1, kSamples);  // every single one must succeed
+    EXPECT_LT(took, std::chrono::seconds(5)) << topic;         // one blocked write costs 100 ms
+    collector.Open();
+    EXPECT_TRUE(collector.WaitForSample(1, kSamples)) << topic << ": the newest is never lost";
+    EXPECT_TRUE(collector.AllIntact()) << topic;
+  };
+  check(bus::TypeTag<MargSample>{});
+  check(bus::TypeTag<MargFrame>{});
 }
 
 TEST_P(SlowReaderConformance, ReturnThatMeetsTheReportOfTheSilenceIsNoticed) {
