@@ -160,6 +160,17 @@ class EventLog {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, deadline, [&] { return Find(kind, topic, from) != nullptr; });
   }
+  /// The same for one with that detail; a stranger on the same domain may cause others.
+  [[nodiscard]] bool WaitForDetail(bus::BusEventKind kind, std::string_view topic,
+                                   std::string_view detail) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, kDeadline, [&] {
+      return std::any_of(events_.begin(), events_.end(), [&](const Entry& entry) {
+        return entry.first.kind == kind && entry.first.topic == topic &&
+               entry.first.detail == detail;
+      });
+    });
+  }
   /// The first such event and when it came; WaitFor has seen it.
   [[nodiscard]] std::pair<bus::BusEvent, std::chrono::steady_clock::time_point> Get(
       bus::BusEventKind kind, std::string_view topic, std::size_t from = 0) const {

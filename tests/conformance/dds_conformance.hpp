@@ -158,8 +158,7 @@ TEST_P(DdsConformance, IncompatibleQosIsNamedOnBothSides) {
   const auto bus = OpenBus("", std::chrono::milliseconds(500));
   const auto reader = Read(*bus, collector);
   Ok(*peer, "start marg 1 1 1 5000");
-  ASSERT_TRUE(events_.WaitFor(bus::BusEventKind::kIncompatibleQos, "marg"));
-  EXPECT_EQ(events_.Get(bus::BusEventKind::kIncompatibleQos, "marg").first.detail, "liveliness");
+  ASSERT_TRUE(events_.WaitForDetail(bus::BusEventKind::kIncompatibleQos, "marg", "liveliness"));
   EXPECT_GE(reader->counters().incompatible_qos, 1U);
 
   const auto deadline = std::chrono::steady_clock::now() + kDeadline;
