@@ -84,23 +84,17 @@ class SessionDirectory::Impl {
       if (!reply) {
         return Error{reply.error().code, "list of sessions: " + reply.error().message};
       }
-      const auto all_there = [&] { return std::to_string(sessions_.size()) == reply->message; };
-      {
-        std::unique_lock lock(mutex_);
-        heard_.wait_until(lock, std::min(until, std::chrono::steady_clock::now() + kAskAgain),
-                          all_there);
-        if (!all_there() && std::chrono::steady_clock::now() >= until) {
-          return Error{ErrorCode::kTimeout, "the session host says \"" + reply->message +
-                                                "\" to how many sessions it has, and " +
-                                                std::to_string(sessions_.size()) +
-                                                " are known within " +
-                                                std::to_string(ToSeconds(timeout)) + " s"};
-        }
-        if (!all_there()) {
-          continue;
-        }
+      const auto now = std::chrono::steady_clock::now();
+      const std::size_t known = HearOf(reply->message, std::min(until, now + kAskAgain));
+      if (std::to_string(known) == reply->message) {
+        return Sessions();
       }
-      return Sessions();
+      if (std::chrono::steady_clock::now() >= until) {
+        return Error{ErrorCode::kTimeout, "the session host says \"" + reply->message +
+                                              "\" to how many sessions it has, and " +
+                                              std::to_string(known) + " are known within " +
+                                              std::to_string(ToSeconds(timeout)) + " s"};
+      }
     }
   }
 
@@ -120,6 +114,13 @@ class SessionDirectory::Impl {
   }
 
  private:
+  // How many sessions are known: `count` of them, or those at `until`.
+  std::size_t HearOf(const std::string& count, std::chrono::steady_clock::time_point until) {
+    std::unique_lock lock(mutex_);
+    heard_.wait_until(lock, until, [&] { return std::to_string(sessions_.size()) == count; });
+    return sessions_.size();
+  }
+
   mutable std::mutex mutex_;  // guards sessions_
   std::condition_variable heard_;
   std::map<std::uint32_t, roster::SessionState> sessions_;

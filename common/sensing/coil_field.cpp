@@ -94,6 +94,9 @@ FieldAndJacobian CoilsField(const CoilSource& source, const Eigen::Vector3d& cur
                             const Eigen::Vector3d& p_emitter_m) {
   FieldAndJacobian sum;
   for (int coil = 0; coil < 3; ++coil) {
+    if (currents_a[coil] == 0.0) {
+      continue;
+    }
     const FieldAndJacobian one = CoilField(source, coil, currents_a[coil], p_emitter_m);
     sum.field_tesla += one.field_tesla;
     sum.jacobian_tesla_m += one.jacobian_tesla_m;

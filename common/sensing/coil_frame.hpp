@@ -36,6 +36,11 @@ struct CoilFrame {
   Eigen::Vector3d emitter_gyro_rad_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d emitter_accel_m_s2 = Eigen::Vector3d::Zero();
   CoilDrive drive;
+
+  /// The magnetometer measured the field of `drive` and of what is around.
+  [[nodiscard]] bool HasField() const {
+    return drive.settled && mag_valid && mag_tesla.allFinite();
+  }
 };
 
 }  // namespace limbcast::sensing

@@ -14,10 +14,8 @@ Eigen::Vector3d SourceField_tesla(const sensing::CoilSource& source, const CoilC
   if (current.coil < 0 || current.current_a == 0.0) {
     return Eigen::Vector3d::Zero();
   }
-  const Eigen::Vector3d p_M =
-      emitter.R_earth_local.transpose() * (p_earth_m - emitter.p_earth_local_m);
-  return emitter.R_earth_local *
-         sensing::CoilField(source, current.coil, current.current_a, p_M).field_tesla;
+  return SourceField_tesla(source, current.current_a * Eigen::Vector3d::Unit(current.coil), emitter,
+                           p_earth_m);
 }
 
 Eigen::Vector3d SourceField_tesla(const sensing::CoilSource& source,

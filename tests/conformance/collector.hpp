@@ -164,12 +164,8 @@ class EventLog {
   [[nodiscard]] bool WaitForDetail(bus::BusEventKind kind, std::string_view topic,
                                    std::string_view detail) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, kDeadline, [&] {
-      return std::any_of(events_.begin(), events_.end(), [&](const Entry& entry) {
-        return entry.first.kind == kind && entry.first.topic == topic &&
-               entry.first.detail == detail;
-      });
-    });
+    return changed_.wait_for(lock, kDeadline,
+                             [&] { return Find(kind, topic, 0, detail) != nullptr; });
   }
   /// The first such event and when it came; WaitFor has seen it.
   [[nodiscard]] std::pair<bus::BusEvent, std::chrono::steady_clock::time_point> Get(
@@ -182,10 +178,11 @@ class EventLog {
  private:
   using Entry = std::pair<bus::BusEvent, std::chrono::steady_clock::time_point>;
 
-  [[nodiscard]] const Entry* Find(bus::BusEventKind kind, std::string_view topic,
-                                  std::size_t from) const {
+  [[nodiscard]] const Entry* Find(bus::BusEventKind kind, std::string_view topic, std::size_t from,
+                                  std::optional<std::string_view> detail = {}) const {
     for (std::size_t i = from; i < events_.size(); ++i) {
-      if (events_[i].first.kind == kind && events_[i].first.topic == topic) {
+      const bus::BusEvent& event = events_[i].first;
+      if (event.kind == kind && event.topic == topic && (!detail || event.detail == *detail)) {
         return &events_[i];
       }
     }

@@ -145,8 +145,7 @@ void CoilInertialFilter::Level(const sensing::CoilFrame& frame) {
   sums_.emitter_gyro += frame.emitter_gyro_rad_s;
   ++sums_.count;
   // Tones go on while nothing moves; their mean is small.
-  if ((frame.drive.coil < 0 || frame.drive.coil == sensing::kAllCoils) && frame.drive.settled &&
-      frame.mag_valid && frame.mag_tesla.allFinite()) {
+  if ((frame.drive.coil < 0 || frame.drive.coil == sensing::kAllCoils) && frame.HasField()) {
     sums_.mag += frame.mag_tesla;
     ++sums_.mag_count;
   }
@@ -251,7 +250,7 @@ void CoilInertialFilter::Propagate(const sensing::CoilFrame& frame, double dt_s,
 }
 
 void CoilInertialFilter::UseSample(const sensing::CoilFrame& frame, CoilUpdateReport& report) {
-  if (!frame.drive.settled || !frame.mag_valid || !frame.mag_tesla.allFinite()) {
+  if (!frame.HasField()) {
     if (report.verdict == CoilFrameVerdict::kUsed) {
       report.verdict = CoilFrameVerdict::kInertialOnly;
     }

@@ -14,10 +14,7 @@ constexpr double kPoseValues = 6.0;
 // Chance exceeds 16 of three values and 22.5 of six as often: once in a thousand.
 constexpr double kSixForThree = 22.5 / 16.0;
 
-bool IsPulse(const sensing::CoilFrame& frame) {
-  return frame.drive.coil >= 0 && frame.drive.settled && frame.mag_valid &&
-         frame.mag_tesla.allFinite();
-}
+bool IsPulse(const sensing::CoilFrame& frame) { return frame.drive.coil >= 0 && frame.HasField(); }
 
 // The frame with its magnetometer sample kept from CoilInertialFilter if a coil was on.
 sensing::CoilFrame WithoutPulse(sensing::CoilFrame frame) {

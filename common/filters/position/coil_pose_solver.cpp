@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "common/math/rotation.hpp"
 
@@ -163,22 +164,20 @@ Hemisphere BestOfAllOctants(const Problem& problem, const HemisphereRule& rule, 
         *S, sensing::CoilFieldsPerAmpere(problem.source, start.p_emitter_sensor_m));
     costs[octant] = Descend(problem, start);
   }
-  std::size_t best = found.size();
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (HemisphereOf(rule, found[i].p_emitter_sensor_m) != Hemisphere::kOpposite &&
-        (best == found.size() || costs[i] < costs[best])) {
-      best = i;
+    if (HemisphereOf(rule, found[i].p_emitter_sensor_m) == Hemisphere::kOpposite) {
+      costs[i] = std::numeric_limits<double>::infinity();
     }
   }
-  if (best == found.size()) {
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin());
+  if (std::isinf(costs[best])) {
     return Hemisphere::kUndecided;
   }
   pose = found[best];
   cost = costs[best];
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double apart_m = (found[i].p_emitter_sensor_m - pose.p_emitter_sensor_m).norm();
-    if (HemisphereOf(rule, found[i].p_emitter_sensor_m) != Hemisphere::kOpposite &&
-        apart_m > kElsewhere * pose.p_emitter_sensor_m.norm() && !(costs[i] > cost + kTold)) {
+    if (apart_m > kElsewhere * pose.p_emitter_sensor_m.norm() && !(costs[i] > cost + kTold)) {
       return Hemisphere::kUndecided;
     }
   }

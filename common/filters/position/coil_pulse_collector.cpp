@@ -28,7 +28,7 @@ bool CoilPulseCollector::Update(const sensing::CoilFrame& frame, const CoilPath&
   if (coil >= 0) {
     coil_ = coil;
   }
-  if (!frame.drive.settled || !frame.mag_valid || !frame.mag_tesla.allFinite()) {
+  if (!frame.HasField()) {
     return finished;
   }
   const Sample sample{frame.measured_at, coil >= 0 ? frame.drive.current_a : 0.0,
@@ -112,7 +112,7 @@ bool CoilPulseCollector::UpdateTones(const sensing::CoilFrame& frame, const Coil
     w.middle_at = frame.measured_at;
     w.middle = path;
   }
-  if (frame.drive.settled && frame.mag_valid && frame.mag_tesla.allFinite()) {
+  if (frame.HasField()) {
     Eigen::Vector4d r;
     r << 1.0, frame.drive.tones_a / frame.drive.current_a;
     w.amplitude_a = frame.drive.current_a;

@@ -23,17 +23,10 @@ inline constexpr std::size_t kCoilVariantCount = 5;
 inline constexpr std::array<const char*, kCoilVariantCount> kCoilVariantNames = {
     "pulses", "coils apart", "tones", "pulses 400 Hz", "tones 400 Hz"};
 
-/// RMS errors of one of them.
-struct CoilVariantFigures {
-  CoilFigure forward;
-  CoilFigure lagged;  ///< 0.6 s
-  double tracked = 0.0;
-};
-
 struct CoilBeyondResult {
   std::string experiment;
   CoilNoise noise = CoilNoise::kThesis;
-  std::array<CoilVariantFigures, kCoilVariantCount> variants;
+  std::array<CoilLiveFigures, kCoilVariantCount> variants;
 };
 
 /// Simulates the same motion with each source and scores from 5 s on. The filter of coils apart is

@@ -29,6 +29,12 @@ nlohmann::json TrackingJson(const CoilTracking& t) {
 
 }  // namespace
 
+nlohmann::json FigureJson(const CoilFigure& figure) {
+  return {{"position_m", figure.position_m},
+          {"distance_m", figure.distance_m},
+          {"orientation_rad", figure.orientation_rad}};
+}
+
 std::string CoilTable(std::span<const CoilExperiment> experiments,
                       std::span<const CoilResult> results) {
   std::string text;
@@ -87,10 +93,7 @@ nlohmann::json CoilJson(std::span<const CoilExperiment> experiments,
     trial["noise"] = TextOf(r.noise);
     trial["mean_range_m"] = r.mean_range_m;
     for (std::size_t i = 0; i < kCoilMethodCount; ++i) {
-      const CoilFigure& f = r.figures[i];
-      trial[kCoilMethodNames[i]] = {{"position_m", f.position_m},
-                                    {"distance_m", f.distance_m},
-                                    {"orientation_rad", f.orientation_rad}};
+      trial[kCoilMethodNames[i]] = FigureJson(r.figures[i]);
     }
     trial[kCoilMethodNames[static_cast<std::size_t>(CoilMethod::kLoose)]].update(
         TrackingJson(r.loose));

@@ -15,6 +15,8 @@ namespace limbcast::tool {
 /// experiment of the same name.
 [[nodiscard]] std::string CoilTable(std::span<const CoilExperiment> experiments,
                                     std::span<const CoilResult> results);
+/// Position and distance in metres, orientation in radians.
+[[nodiscard]] nlohmann::json FigureJson(const CoilFigure& figure);
 /// The same figures in metres and radians.
 [[nodiscard]] nlohmann::json CoilJson(std::span<const CoilExperiment> experiments,
                                       std::span<const CoilResult> results, std::uint64_t seed);

@@ -160,6 +160,14 @@ filters::CoilInertialConfig MakeCoilFilter(const CoilExperiment& experiment, Coi
 
 CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise, std::uint64_t seed) {
   const simulation::CoilStreamConfig stream = MakeCoilStream(experiment, noise, seed);
+  filters::CoilInertialConfig filter = MakeCoilFilter(experiment, noise);
+  filter.source = stream.source;
+  return MakeCoilTrial(experiment, noise, stream, filter, seed);
+}
+
+CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise,
+                        const simulation::CoilStreamConfig& stream,
+                        const filters::CoilInertialConfig& filter, std::uint64_t seed) {
   CoilTrial trial;
   trial.name = experiment.name;
   trial.noise = noise;
@@ -170,27 +178,26 @@ CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise, std::
     const double at_s = ToSeconds(tick.frame.measured_at.time_since_epoch());
     trial.scored.push_back(at_s >= kCoilScoredFrom_s ? 1 : 0);
   }
-  trial.config = MakeCoilFilter(experiment, noise);
-  trial.config.source = stream.source;
+  trial.config = filter;
   return trial;
 }
 
-CoilResult EvaluateTrial(const CoilTrial& trial) {
+CoilLiveFigures EvaluateLive(
+    const CoilTrial& trial,
+    const std::function<void(const filters::CoilInertialFilter&, Time)>& on_update) {
   auto filter = filters::CoilInertialFilter::Make(trial.config);
   Expects(filter.ok(), "a valid configuration");
   filters::CoilFixedLag fixed_lag(kLag_s, trial.rate_hz);
-  filters::CoilIntervalSmoother smoother;
   ForwardScore forward;
   CoilScore lag_score;
-  CoilScore smoothed_score;
-  CoilResult result;
-  result.experiment = trial.name;
-  result.noise = trial.noise;
+  CoilLiveFigures live;
   for (std::size_t k = 0; k < trial.ticks.size(); ++k) {
     const CoilTick& tick = trial.ticks[k];
     const Time now_at = tick.frame.measured_at;
     filter->Update(tick.frame);
-    smoother.Add(*filter, now_at);
+    if (on_update) {
+      on_update(*filter, now_at);
+    }
     filters::CoilEstimate lagged;
     if (fixed_lag.Update(*filter, now_at, lagged) && lagged.valid) {
       const std::size_t then = TickAt(trial, lagged.measured_at);
@@ -199,26 +206,41 @@ CoilResult EvaluateTrial(const CoilTrial& trial) {
       }
     }
     if (trial.scored[k] != 0) {
-      result.mean_range_m += tick.p_emitter_sensor_m.norm();
+      live.mean_range_m += tick.p_emitter_sensor_m.norm();
       forward.Add(EstimateNow(*filter, now_at), tick);
     }
   }
-  result.mean_range_m /= std::max(1.0, forward.scored);
-  result.forward = forward.Tracking(filter->losses());
+  live.mean_range_m /= std::max(1.0, forward.scored);
+  live.forward = forward.errors.Figure();
+  live.lagged = lag_score.Figure();
+  live.tracking = forward.Tracking(filter->losses());
+  return live;
+}
+
+CoilResult EvaluateTrial(const CoilTrial& trial) {
+  filters::CoilIntervalSmoother smoother;
+  const CoilLiveFigures live = EvaluateLive(
+      trial, [&](const filters::CoilInertialFilter& filter, Time at) { smoother.Add(filter, at); });
   const auto smoothed = smoother.Smooth();
+  CoilScore smoothed_score;
   for (std::size_t k = 0; k < trial.ticks.size(); ++k) {
     if (smoothed[k].valid && trial.scored[k] != 0) {
       smoothed_score.Add(smoothed[k].p_emitter_sensor_m, smoothed[k].q_sensor_emitter,
                          trial.ticks[k]);
     }
   }
+  CoilResult result;
+  result.experiment = trial.name;
+  result.noise = trial.noise;
+  result.mean_range_m = live.mean_range_m;
+  result.forward = live.tracking;
   const auto figure = [&](CoilMethod method) -> CoilFigure& {
     return result.figures[static_cast<std::size_t>(method)];
   };
   figure(CoilMethod::kMagneticOnly) = MagneticOnly(trial);
   figure(CoilMethod::kLoose) = Loose(trial, result.loose);
-  figure(CoilMethod::kForward) = forward.errors.Figure();
-  figure(CoilMethod::kFixedLag) = lag_score.Figure();
+  figure(CoilMethod::kForward) = live.forward;
+  figure(CoilMethod::kFixedLag) = live.lagged;
   figure(CoilMethod::kSmoothed) = smoothed_score.Figure();
   return result;
 }

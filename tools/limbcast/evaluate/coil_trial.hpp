@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "common/filters/position/coil_inertial_config.hpp"
+#include "common/filters/position/coil_inertial_filter.hpp"
 #include "common/simulation/random.hpp"
 #include "tools/limbcast/evaluate/coil_experiments.hpp"
 #include "tools/limbcast/evaluate/coil_score.hpp"
@@ -60,6 +62,20 @@ struct CoilTrial {
 [[nodiscard]] Eigen::Matrix3d DrawGradient_tesla_m(simulation::Random& random);
 [[nodiscard]] Eigen::Matrix3d DrawGradient_tesla_m(std::uint64_t seed);
 
+/// RMS errors of the tightly coupled filter as it goes.
+struct CoilLiveFigures {
+  CoilFigure forward;
+  CoilFigure lagged;  ///< by 0.6 s
+  CoilTracking tracking;
+  double mean_range_m = 0.0;
+};
+/// Lets the filter follow the trial.
+///
+/// @param on_update  called after each of its updates, when not empty.
+[[nodiscard]] CoilLiveFigures EvaluateLive(
+    const CoilTrial& trial,
+    const std::function<void(const filters::CoilInertialFilter&, Time)>& on_update = {});
+
 /// Lets all methods run. Magnetic only: least squares on each three pulses, columns turned by gyro,
 /// no inertial displacement, compared in the middle of the second pulse. Loose: the same poses,
 /// with inertial displacement, as measurements of the filter, forward.
@@ -71,8 +87,13 @@ struct CoilTrial {
 [[nodiscard]] filters::CoilInertialConfig MakeCoilFilter(const CoilExperiment& experiment,
                                                          CoilNoise noise);
 
-/// Simulates the experiment and evaluates it from 5 s on (2 s after the motion began).
+/// Simulates the experiment, which counts from 5 s on (2 s after the motion began).
 [[nodiscard]] CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise,
+                                      std::uint64_t seed);
+/// The same with another source or filter than these.
+[[nodiscard]] CoilTrial MakeCoilTrial(const CoilExperiment& experiment, CoilNoise noise,
+                                      const simulation::CoilStreamConfig& stream,
+                                      const filters::CoilInertialConfig& filter,
                                       std::uint64_t seed);
 [[nodiscard]] CoilResult EvaluateCoil(const CoilExperiment& experiment, CoilNoise noise,
                                       std::uint64_t seed);

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const CoilVariantFigures& Of(const CoilBeyondResult& result, CoilVariant variant) {
+const CoilLiveFigures& Of(const CoilBeyondResult& result, CoilVariant variant) {
   return result.variants[static_cast<std::size_t>(variant)];
 }
 
@@ -21,8 +21,8 @@ TEST(CoilBeyondTest, EveryGainIsThereOnAMotionThatIsNoneOfTheTables) {
   experiment.duration_s = 40.0;
   const CoilBeyondResult result = EvaluateBeyond(experiment, CoilNoise::kThesis, 9);
   const auto& pulses = Of(result, CoilVariant::kPulses);
-  for (const CoilVariantFigures& v : result.variants) {
-    EXPECT_GT(v.tracked, 0.99);
+  for (const CoilLiveFigures& v : result.variants) {
+    EXPECT_GT(v.tracking.tracked, 0.99);
     EXPECT_LT(v.lagged.position_m, v.forward.position_m);
   }
   EXPECT_LT(Of(result, CoilVariant::kTones).forward.position_m, pulses.forward.position_m);
@@ -37,7 +37,7 @@ TEST(CoilBeyondTest, TheTableAndTheFileHaveEverySource) {
     const double mm = 1.0 + static_cast<double>(i);
     result.variants[i].forward.position_m = 1e-3 * mm;
     result.variants[i].lagged.position_m = 0.5e-3 * mm;
-    result.variants[i].tracked = i == 2 ? 0.9 : 1.0;
+    result.variants[i].tracking.tracked = i == 2 ? 0.9 : 1.0;
   }
   const std::string table = BeyondTable({&result, 1});
   EXPECT_THAT(table, HasSubstr("arm walking"));
