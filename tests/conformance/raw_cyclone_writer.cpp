@@ -74,12 +74,7 @@ class RawCycloneWriter final : public RawWriter {
     if (!topic) {
       return topic.error();
     }
-    // All kinds of garbage at once are more than a writer of frames keeps, and a reader on Fast DDS
-    // 2.9 that is told of garbage which is gone ends its process (DataReaderHistory.cpp:482).
-    // Frames that are gone do it no harm (SlowReaderConformance).
-    const auto profile =
-        names.profile == bus::QosProfile::kFrame ? bus::QosProfile::kStream : names.profile;
-    const auto qos = bus::cyclone::WriterQos(profile, names.exclusive, config);
+    const auto qos = bus::cyclone::WriterQos(names.profile, names.exclusive, config);
     writer_ = dds_create_writer(participant_->publisher(), topic->entity, qos.get(), nullptr);
     return writer_ < 0 ? Status(bus::cyclone::CycloneError("raw writer of", names.topic, writer_))
                        : Ok();

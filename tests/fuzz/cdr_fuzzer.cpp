@@ -1,15 +1,18 @@
-// Every topic's decoder on bytes that nobody meant: what a hostile or broken peer may send. The
-// first byte picks the topic. What is decoded must survive being encoded and decoded again.
+// Every topic's decoder, and what looks into whole RTPS messages, on bytes that nobody meant: what
+// a hostile or broken peer may send. The first byte picks which. What is decoded must survive being
+// encoded and decoded again.
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "common/bus/cdr.hpp"
+#include "common/bus/wire/rtps_fragments.hpp"
 
 namespace {
 
@@ -29,11 +32,22 @@ void DecodeTwice(std::span<const std::byte> bytes) {
   }
 }
 
+void ForgetTwice(std::span<const std::byte> bytes) {
+  std::vector<std::uint8_t> message(bytes.size());
+  std::memcpy(message.data(), bytes.data(), bytes.size());
+  if (limbcast::bus::ForgetKeysOfFragments(message)) {
+    const std::vector<std::uint8_t> once = message;
+    if (!limbcast::bus::ForgetKeysOfFragments(message) || message != once) {
+      std::abort();  // a key was left
+    }
+  }
+}
+
 using Decode = void (*)(std::span<const std::byte>);
 
 template <std::size_t... I>
-constexpr std::array<Decode, sizeof...(I)> Decoders(std::index_sequence<I...>) {
-  return {&DecodeTwice<std::tuple_element_t<I, AllTopics>>...};
+constexpr std::array<Decode, sizeof...(I) + 1> Decoders(std::index_sequence<I...>) {
+  return {&DecodeTwice<std::tuple_element_t<I, AllTopics>>..., &ForgetTwice};
 }
 
 }  // namespace

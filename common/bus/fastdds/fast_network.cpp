@@ -14,6 +14,7 @@
 #include <set>
 #include <utility>
 
+#include "common/bus/fastdds/fast_transport.hpp"
 #include "common/bus/network_interfaces.hpp"
 
 namespace limbcast::bus::fastdds {
@@ -92,7 +93,7 @@ Result<DomainParticipantQos> ParticipantQos(const BusConfig& config,
   udp->maxInitialPeersRange = kPeerPorts;
   udp->interfaceWhiteList = addresses;
   qos.transport().use_builtin_transports = false;  // they bring shared memory
-  qos.transport().user_transports.push_back(udp);
+  qos.transport().user_transports.push_back(WithoutKeysOfFragments(udp));
 
   const bool loopback = config.network == NetworkProfile::kLoopback;
   if (loopback) {

@@ -8,11 +8,13 @@
 
 #include <set>
 
+#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 
 namespace limbcast::bus::fastdds {
 namespace {
 
+using eprosima::fastdds::rtps::ChainingTransportDescriptor;
 using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 using eprosima::fastrtps::rtps::IPLocator;
 
@@ -33,8 +35,10 @@ TEST(FastNetworkTest, LoopbackIsUdpOn127AndNothingElse) {
   ASSERT_TRUE(qos);
   EXPECT_FALSE(qos->transport().use_builtin_transports);
   ASSERT_EQ(qos->transport().user_transports.size(), 1U);
-  const auto udp =
-      std::dynamic_pointer_cast<UDPv4TransportDescriptor>(qos->transport().user_transports.front());
+  const auto chain = std::dynamic_pointer_cast<ChainingTransportDescriptor>(
+      qos->transport().user_transports.front());
+  ASSERT_NE(chain, nullptr);
+  const auto udp = std::dynamic_pointer_cast<UDPv4TransportDescriptor>(chain->low_level_descriptor);
   ASSERT_NE(udp, nullptr);
   EXPECT_EQ(udp->interfaceWhiteList, *addresses);
   EXPECT_EQ(udp->maxInitialPeersRange, 64U);
