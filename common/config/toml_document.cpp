@@ -8,54 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/config/toml_ascii.hpp"
+
 namespace limbcast::config::internal {
-namespace {
-
-bool IsAscii(char c) { return static_cast<unsigned char>(c) < 0x80; }
-
-// Where a quoted string that begins at `at` ends: after its last quote, or before the line's end
-// that TOML does not allow in it (toml.io/en/v1.0.0#string).
-std::size_t EndOfString(std::string_view text, std::size_t at) {
-  const char quote = text[at];
-  const bool escapes = quote == '"';
-  const std::string three(3, quote);
-  const bool lines = text.substr(at, 3) == three;
-  at += lines ? 3 : 1;
-  while (at < text.size()) {
-    if (escapes && text[at] == '\\') {
-      at += 2;
-    } else if (lines && text.substr(at, 3) == three) {
-      return at + 3;
-    } else if (!lines && text[at] == quote) {
-      return at + 1;
-    } else if (!lines && text[at] == '\n') {
-      return at;
-    } else {
-      ++at;
-    }
-  }
-  return text.size();
-}
-
-// The first byte above ASCII that stands neither in a string nor in a comment.
-std::optional<std::size_t> FindBareNonAscii(std::string_view text) {
-  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte order mark
-  while (at < text.size()) {
-    if (text[at] == '"' || text[at] == '\'') {
-      at = EndOfString(text, at);
-    } else if (text[at] == '#') {
-      at = std::min(text.find('\n', at), text.size());
-    } else if (!IsAscii(text[at])) {
-      return at;
-    } else {
-      ++at;
-    }
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
 std::string PlaceOf(const Document& document, const toml::node* node) {
   if (node == nullptr || node->source().begin.line == 0) {
     return document.name;
@@ -156,21 +111,12 @@ Result<toml::table> ParseToml(std::string_view text, const std::string& name) {
                  fmt::format("{}:{}: control character 0x{:02x}, TOML allows none", name,
                              1 + std::count(text.begin(), control, '\n'), *control)};
   }
-  // Nor does it have other letters than those of ASCII outside of quotes; toml++ 3.3 takes some for
-  // the beginning of a key and then calls it unreachable that they are none (tests/fuzz, too).
-  if (const auto at = FindBareNonAscii(text)) {
-    std::size_t end = *at + 1;
-    while (end < text.size() && !IsAscii(text[end])) {
-      ++end;
-    }
-    const std::string_view before = text.substr(0, *at);
-    return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("{}:{}: '{}' outside of quotes, TOML allows ASCII only there", name,
-                             1 + std::count(before.begin(), before.end(), '\n'),
-                             text.substr(*at, end - *at))};
+  const auto ascii = AsciiToml(text, name);
+  if (!ascii.ok()) {
+    return ascii.error();
   }
   try {  // the parser throws; nothing thrown leaves this room
-    return toml::parse(text, name);
+    return toml::parse(*ascii, name);
   } catch (const toml::parse_error& error) {
     return Error{ErrorCode::kInvalidArgument,
                  fmt::format("{}:{}: {}", name, error.source().begin.line, error.description())};

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
+
+#include "common/base/utf8.hpp"
 
 namespace limbcast::session {
 namespace {
@@ -25,32 +26,7 @@ bool IsPlain(char c) {
          c == '_' || c == '-';
 }
 
-// Takes one character off the front, by Table 3-7 of the Unicode standard (no overlong forms, no
-// surrogates, nothing above U+10FFFF); false when the bytes are none.
-bool TakeCharacter(std::string_view& text, std::uint32_t& character) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
-  const std::uint8_t lead = byte(0);
-  const std::size_t length = lead < 0x80U                     ? 1
-                             : lead >= 0xC2U && lead <= 0xDFU ? 2
-                             : lead >= 0xE0U && lead <= 0xEFU ? 3
-                             : lead >= 0xF0U && lead <= 0xF4U ? 4
-                                                              : 0;
-  if (length == 0 || text.size() < length) {
-    return false;
-  }
-  character = length == 1 ? lead : lead & (0x7FU >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) {
-      return false;
-    }
-    character = (character << 6U) | (byte(i) & 0x3FU);
-  }
-  text.remove_prefix(length);
-  return !(length == 3 && character < 0x800U) && !(length == 4 && character < 0x10000U) &&
-         !(character >= 0xD800U && character <= 0xDFFFU) && character <= 0x10FFFFU;
-}
-
-bool IsControl(std::uint32_t character) {
+bool IsControl(char32_t character) {
   return character < 0x20U || (character >= 0x7FU && character < 0xA0U);
 }
 
@@ -71,9 +47,9 @@ Status ValidatePersonName(std::string_view name) {
   if (Status length = CheckLength("person's", name); !length) {
     return length;
   }
-  std::uint32_t character = 0;
   while (!name.empty()) {
-    if (!TakeCharacter(name, character) || IsControl(character)) {
+    const auto character = TakeCharacter(name);
+    if (!character || IsControl(*character)) {
       return Error{ErrorCode::kInvalidArgument,
                    "a person's name must be UTF-8 without control characters"};
     }

@@ -1,11 +1,12 @@
 // Every topic's decoder, and what looks into whole RTPS messages, on bytes that nobody meant: what
 // a hostile or broken peer may send. The first byte picks which. What is decoded must survive being
 // encoded and decoded again.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
+#include <iterator>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -33,8 +34,9 @@ void DecodeTwice(std::span<const std::byte> bytes) {
 }
 
 void ForgetTwice(std::span<const std::byte> bytes) {
-  std::vector<std::uint8_t> message(bytes.size());
-  std::memcpy(message.data(), bytes.data(), bytes.size());
+  std::vector<std::uint8_t> message;
+  std::ranges::transform(bytes, std::back_inserter(message),
+                         [](std::byte byte) { return std::to_integer<std::uint8_t>(byte); });
   if (limbcast::bus::ForgetKeysOfFragments(message)) {
     const std::vector<std::uint8_t> once = message;
     if (!limbcast::bus::ForgetKeysOfFragments(message) || message != once) {

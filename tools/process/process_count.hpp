@@ -12,7 +12,7 @@ namespace limbcast::process {
 /// What another process holds now, as the kernel counts it.
 struct ProcessCount {
   std::size_t threads = 0;
-  std::size_t files = 0;  ///< open file descriptors
+  std::size_t files = 0;  ///< open file descriptors, without those in /proc that it reads of itself
   double rss_mib = 0.0;   ///< resident memory
   bool operator==(const ProcessCount&) const = default;
 };

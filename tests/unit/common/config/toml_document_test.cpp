@@ -52,25 +52,5 @@ TEST(TomlDocumentTest, WhatIsNotTomlIsRefusedWithItsLine) {
   EXPECT_EQ(parsed.error().message.substr(0, 10), "t.toml:3: ");
 }
 
-TEST(TomlDocumentTest, LettersAboveAsciiAreForStringsAndComments) {
-  for (const std::string text :
-       {"\xEF\xBB\xBF"
-        "a = \"\u00fc\" # \u00e4\nb = 1\n",
-        "a = '\u0447'\n\"\u0447\" = 1\nb = 1\n", "a = \"\\\"\u0447\"\nb = 1 # \"\n",
-        "a = \"\"\"\n\u0447 \"\" \u0447\n\"\"\"\nb = 1\n", "a = '''\n\u0447\\\n'''\nb = 1\n"}) {
-    const auto parsed = ParseToml(text, "t.toml");
-    ASSERT_TRUE(parsed.ok()) << text << parsed.error().message;
-    EXPECT_EQ((*parsed)["b"].value_or(0), 1) << text;
-  }
-  for (const std::string text :
-       {"x = 1\n\u0447\n", "x = 'a'\n\u0447 = 1\n", "x = 1 # \"\n\u0447 = 1\n",
-        "x = \"\\\\\"\n[\u0447]\n", "x = '\\'\na = \u0447\n"}) {
-    const auto parsed = ParseToml(text, "t.toml");
-    ASSERT_FALSE(parsed.ok()) << text;
-    EXPECT_EQ(parsed.error().message,
-              "t.toml:2: '\u0447' outside of quotes, TOML allows ASCII only there");
-  }
-}
-
 }  // namespace
 }  // namespace limbcast::config::internal

@@ -31,6 +31,14 @@ TEST(ProcessCountTest, ThreadsAndFilesOfThisProcessAreCounted) {
   EXPECT_EQ(CountOf(getpid())->files, before->files);
 }
 
+TEST(ProcessCountTest, WhatAProcessReadsOfItselfIsNoOpenFile) {
+  const auto before = CountOf(getpid());
+  const std::ifstream statm("/proc/self/statm");
+  const std::ifstream stat("/proc/stat");
+  ASSERT_TRUE(statm.is_open() && stat.is_open());
+  EXPECT_EQ(CountOf(getpid())->files, before->files);
+}
+
 TEST(ProcessCountTest, AProcessThatIsNotThereIsNamed) {
   const auto none = CountOf(999'999'999);
   ASSERT_FALSE(none.ok());
