@@ -29,13 +29,16 @@ bool IsOnDomain(const std::vector<std::string>& arguments, std::uint32_t domain)
          *std::next(option) == std::to_string(domain);
 }
 
+// Programs in a network of their own (tests/system/network) may use the same domain.
 template <typename Use>
 void ForEachProcess(Use&& use) {
   std::error_code ignored;
+  const auto network = std::filesystem::read_symlink("/proc/self/ns/net", ignored);
   for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
     const std::string name = entry.path().filename();
     pid_t pid = 0;
-    if (std::from_chars(name.data(), name.data() + name.size(), pid).ec == std::errc{}) {
+    if (std::from_chars(name.data(), name.data() + name.size(), pid).ec == std::errc{} &&
+        std::filesystem::read_symlink(entry.path() / "ns" / "net", ignored) == network) {
       use(pid, CommandLineOf(entry.path()));
     }
   }
