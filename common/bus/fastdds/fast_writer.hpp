@@ -29,6 +29,10 @@ class FastWriter final : public Writer<T>, private eprosima::fastdds::dds::DataW
       // The news that a writer is gone travels on another socket and may overtake its last samples,
       // which the reader then drops. (Cyclone DDS waits like this by itself.)
       writer_->wait_for_acknowledgments(kLinger);
+      // The library (2.9) frees what an unanswering reader left here while its heartbeat may still
+      // look at it, and then counts from nothing to the end of it (RTPSWriter::deinit,
+      // StatefulWriter::add_gaps_for_holes_in_history_): no process would end.
+      writer_->clear_history(nullptr);
       participant_.publisher().delete_datawriter(writer_);
     }
   }
