@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -8,6 +9,23 @@
 #include "common/config/config_file.hpp"
 
 namespace limbcast::config {
+
+/// A name that `parse` (text → std::optional<T>) knows. One that it does not know is refused: "must
+/// be <what>, is 'x'". `fallback` then, and when the key is not there or empty.
+template <typename T, typename Parse>
+[[nodiscard]] T ReadNamed(const Section& section, std::string_view key, T fallback, Parse parse,
+                          std::string_view what) {
+  constexpr std::size_t kMaxName = 64;
+  const std::string name = section.Read(key, "", kMaxName);
+  if (name.empty()) {
+    return fallback;
+  }
+  if (auto value = parse(name)) {
+    return *std::move(value);
+  }
+  section.Fail(key, "must be " + std::string(what) + ", is '" + name + "'");
+  return fallback;
+}
 
 /// A list of names, each of which `parse` (text → std::optional<T>) knows. One that it does not
 /// know is refused: "must be <what>, has 'x'". `fallback` when the key is not there.

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kTeslaPerNanotesla = 1e-9;
 constexpr double kMetresPerMillimetre = 1e-3;
-constexpr std::size_t kMaxName = 64;
 constexpr double kMostLag_s = 2.0;
 
 double ReadNanotesla(const config::Section& section, std::string_view key, double tesla, double min,
@@ -50,12 +49,8 @@ PositionConfig ReadPositionConfig(const config::Section& fusion) {
   PositionConfig config;
   config.lag_s = fusion.Read("position_lag_s", config.lag_s, 0.0, kMostLag_s);
   const config::Section coils = fusion.Get("coils");
-  if (const std::string name = coils.Read("source", "", kMaxName); !name.empty()) {
-    config.coils.source = body::ParseSegment(name);
-    if (!config.coils.source) {
-      coils.Fail("source", fmt::format("must be a segment like pelvis, is '{}'", name));
-    }
-  }
+  config.coils.source = config::ReadNamed(coils, "source", config.coils.source, body::ParseSegment,
+                                          "a segment like pelvis");
   config.coils.sensors = config::ReadNamedList(coils, "sensors", config.coils.sensors,
                                                body::ParseSegment, "segments like right_fore_arm");
   config.coils.current_a = coils.Read("current_a", config.coils.current_a, 0.01, 20.0);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/config/named_values.hpp"
+
 namespace limbcast::posture {
 namespace {
 
@@ -64,15 +66,8 @@ PostureConfig ReadPostureConfig(const config::Section& section) {
   config.still_limit_rad = section.Read("still_limit_rad", config.still_limit_rad, 1e-6, 1.0);
   config.body_height_m = section.Read("body_height_m", config.body_height_m, body::kMinBodyHeight_m,
                                       body::kMaxBodyHeight_m);
-  for (const std::string& name : section.Read("segments", std::vector<std::string>())) {
-    if (const auto segment = body::ParseSegment(name)) {
-      config.segments.push_back(*segment);
-    } else {
-      section.Fail("segments", fmt::format("must name segments (\"pelvis\", \"t8\", "
-                                           "\"left_upper_arm\", ...), has \"{}\"",
-                                           name));
-    }
-  }
+  config.segments = config::ReadNamedList(section, "segments", config.segments, body::ParseSegment,
+                                          "segments like left_upper_arm");
   config.joint_limits = section.Read("joint_limits", config.joint_limits);
   config.joint_softness_rad =
       section.Read("joint_softness_rad", config.joint_softness_rad, 0.001, 1.0);

@@ -3,9 +3,10 @@
 #include <array>
 #include <span>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
+#include "common/base/range.hpp"
+#include "common/config/named_values.hpp"
 #include "common/units/units.hpp"
 
 namespace limbcast::gateway {
@@ -55,24 +56,11 @@ void ReadFaults(const config::Section& section, FaultConfig& faults) {
     ListedFault listed;
     listed.tick = entry.Read("tick", listed.tick, 0U, 1'000'000'000'000U);
     listed.body = entry.Read("body", listed.body, 1U, 1'000'000U);
-    const std::string segment = entry.Read("segment", "pelvis", 64);
-    if (const auto parsed = body::ParseSegment(segment)) {
-      listed.segment = *parsed;
-    } else {
-      entry.Fail("segment", "must be a segment like right_fore_arm, is '" + segment + "'");
-    }
+    listed.segment = config::ReadNamed(entry, "segment", listed.segment, body::ParseSegment,
+                                       "a segment like right_fore_arm");
     listed.fault = entry.Read("fault", listed.fault, FaultNames());
     faults.list.push_back(listed);
   }
-}
-
-Status CheckRange(std::string_view key, double value, const Range& range) {
-  if (value >= range.min && value <= range.max) {
-    return Ok();
-  }
-  return Error{ErrorCode::kInvalidArgument,
-               "simulator." + std::string(key) + " must be in [" + std::to_string(range.min) +
-                   ", " + std::to_string(range.max) + "], is " + std::to_string(value)};
 }
 
 }  // namespace
@@ -105,17 +93,19 @@ SimulatorConfig ReadSimulatorConfig(const config::Section& section, SimulatorCon
 }
 
 Status Validate(const SimulatorConfig& config) {
-  for (const auto& [key, value, range] :
-       {std::tuple{"persons", static_cast<double>(config.persons), kPersons},
-        std::tuple{"rate_hz", config.rate_hz, kRate_hz},
-        std::tuple{"duration_s", config.duration_s, kDuration_s},
-        std::tuple{"n_pose_s", config.n_pose_s, kNPose_s},
-        std::tuple{"facing_rad", config.facing_rad, Range{-6.3, 6.3}},
-        std::tuple{"height_m", config.height_m, kHeight_m},
-        std::tuple{"spacing_m", config.spacing_m, kSpacing_m}}) {
-    if (Status ok = CheckRange(key, value, range); !ok) {
-      return ok;
-    }
+  const auto ranged = [](std::string_view name, double value, const Range& range) {
+    return RangedValue{.name = name, .value = value, .min = range.min, .max = range.max};
+  };
+  if (const Status ok = CheckRanges(
+          "simulator.", {ranged("persons", static_cast<double>(config.persons), kPersons),
+                         ranged("rate_hz", config.rate_hz, kRate_hz),
+                         ranged("duration_s", config.duration_s, kDuration_s),
+                         ranged("n_pose_s", config.n_pose_s, kNPose_s),
+                         ranged("facing_rad", config.facing_rad, {-6.3, 6.3}),
+                         ranged("height_m", config.height_m, kHeight_m),
+                         ranged("spacing_m", config.spacing_m, kSpacing_m)});
+      !ok) {
+    return ok;
   }
   if (config.serial_prefix.size() > kMaxPrefix) {
     return Error{ErrorCode::kInvalidArgument,

@@ -32,6 +32,24 @@ TEST(NamedValuesTest, WithoutTheKeyItIsTheFallback) {
   EXPECT_EQ(ReadNamedList(file->Get("a"), "empty", Numbers{1}, Number, "numbers"), Numbers{});
 }
 
+TEST(NamedValuesTest, OneName) {
+  const auto file = ConfigFile::Parse("[a]\nx = \"two\"\ny = \"\"\n", "t.toml");
+  ASSERT_TRUE(file.ok());
+  EXPECT_EQ(ReadNamed(file->Get("a"), "x", 7, Number, "a number"), 2);
+  EXPECT_EQ(ReadNamed(file->Get("a"), "y", 7, Number, "a number"), 7);
+  EXPECT_EQ(ReadNamed(file->Get("a"), "z", std::optional<int>(), Number, "a number"), std::nullopt);
+  EXPECT_TRUE(file->Finish().ok());
+}
+
+TEST(NamedValuesTest, OneUnknownNameIsRefusedWithItsPlace) {
+  const auto file = ConfigFile::Parse("[a]\nx = \"ten\"\n", "t.toml");
+  ASSERT_TRUE(file.ok());
+  EXPECT_EQ(ReadNamed(file->Get("a"), "x", 7, Number, "a number"), 7);
+  const Status finished = file->Finish();
+  ASSERT_FALSE(finished.ok());
+  EXPECT_EQ(finished.error().message, "t.toml:2: a.x must be a number, is 'ten'");
+}
+
 TEST(NamedValuesTest, AnUnknownNameIsRefusedWithItsPlace) {
   const auto file = ConfigFile::Parse("[a]\nlist = [\"one\", \"ten\"]\n", "t.toml");
   ASSERT_TRUE(file.ok());

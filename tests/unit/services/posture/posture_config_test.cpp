@@ -69,7 +69,7 @@ TEST(PostureConfigTest, RefusalsNameKeyValueAndLimit) {
   EXPECT_THAT(message("[posture]\nworkers = 0"), HasSubstr("posture.workers must be in [1, 64]"));
   EXPECT_THAT(message("[posture]\noutput_rate_hz = 0.5"),
               HasSubstr("posture.output_rate_hz must be 0 or in [1, 1000], is 0.5"));
-  EXPECT_THAT(message("[posture]\nsegments = [\"tail\"]"), HasSubstr("has \"tail\""));
+  EXPECT_THAT(message("[posture]\nsegments = [\"tail\"]"), HasSubstr("has 'tail'"));
   EXPECT_THAT(message("[posture]\nno_such_key = 1"), HasSubstr("no_such_key"));
 }
 
