@@ -90,10 +90,21 @@ class Client::Impl {
     std::optional<body::BodyDefinition> definition;
     std::optional<body::ForwardKinematics> kinematics;  // of the definition
     SkeletonHistory skeletons;
+    // Out of the roster. The posture service disposes of the definition then, but not one that has
+    // fallen meanwhile; and the news of either may come first.
+    bool left = false;
   };
   Person& Of(BodyId body_id) {
     return people_.try_emplace(body_id, options_.history).first->second;
   }
+  // With mutex_ held; null for who is not there.
+  [[nodiscard]] const Person* Find(BodyId body_id) const {
+    const auto found = people_.find(body_id);
+    return found == people_.end() || found->second.left ? nullptr : &found->second;
+  }
+  void Take(const roster::RosterEntry& entry);
+  void Leave(BodyId body_id);
+  void Tell(const body::BodyDefinition& definition, bool present);
   void Take(const body::Skeleton& skeleton);
   void Take(const body::BodyDefinition& definition);
   void Remove(const body::BodyDefinition& key);
@@ -134,16 +145,8 @@ Status Client::Impl::Join(bus::Bus& bus) {
     commands_ = std::move(*commands);
   }
   auto entries = bus.MakeReader<roster::RosterEntry>(
-      {.on_sample =
-           [this](const roster::RosterEntry& entry, const bus::SampleInfo&) {
-             const std::scoped_lock lock(mutex_);
-             roster_[entry.body_id] = entry;
-           },
-       .on_disposed =
-           [this](const roster::RosterEntry& key) {
-             const std::scoped_lock lock(mutex_);
-             roster_.erase(key.body_id);
-           }});
+      {.on_sample = [this](const auto& entry, const bus::SampleInfo&) { Take(entry); },
+       .on_disposed = [this](const auto& key) { Leave(key.body_id); }});
   if (!entries) {
     return entries.error();
   }
@@ -218,28 +221,74 @@ void Client::Impl::Take(const body::BodyDefinition& definition) {
       person.kinematics.emplace(definition);
     }
     changed_.notify_all();
+    if (person.left) {
+      return;
+    }
   }
-  const std::scoped_lock lock(callback_mutex_);
-  if (on_body_) {
-    on_body_(definition, true);
-  }
+  Tell(definition, true);
 }
 
 void Client::Impl::Remove(const body::BodyDefinition& key) {
-  body::BodyDefinition left;
-  left.body_id = key.body_id;
+  body::BodyDefinition gone;
+  gone.body_id = key.body_id;
   {
     const std::scoped_lock lock(mutex_);
-    const auto person = people_.find(key.body_id);
-    if (person == people_.end()) {
+    const Person* person = Find(key.body_id);
+    const bool was_there = person != nullptr;
+    gone = was_there ? person->definition.value_or(gone) : gone;
+    people_.erase(key.body_id);
+    if (!was_there) {
       return;
     }
-    left = person->second.definition.value_or(left);
-    people_.erase(person);
   }
+  Tell(gone, false);
+}
+
+void Client::Impl::Take(const roster::RosterEntry& entry) {
+  body::BodyDefinition back;
+  {
+    const std::scoped_lock lock(mutex_);
+    roster_[entry.body_id] = entry;
+    const auto found = people_.find(entry.body_id);
+    if (found == people_.end() || !found->second.left) {
+      return;
+    }
+    Person& person = found->second;
+    if (!person.definition || person.definition->name != entry.person) {
+      people_.erase(found);  // of the one who had this body before
+      return;
+    }
+    person.left = false;
+    back = *person.definition;
+    changed_.notify_all();
+  }
+  Tell(back, true);
+}
+
+void Client::Impl::Leave(BodyId body_id) {
+  body::BodyDefinition gone;
+  {
+    const std::scoped_lock lock(mutex_);
+    roster_.erase(body_id);
+    const auto found = people_.find(body_id);
+    if (found == people_.end() || found->second.left) {
+      return;
+    }
+    Person& person = found->second;
+    person.left = true;
+    person.skeletons = SkeletonHistory(options_.history);
+    if (!person.definition) {
+      return;
+    }
+    gone = *person.definition;
+  }
+  Tell(gone, false);
+}
+
+void Client::Impl::Tell(const body::BodyDefinition& definition, bool present) {
   const std::scoped_lock lock(callback_mutex_);
   if (on_body_) {
-    on_body_(left, false);
+    on_body_(definition, present);
   }
 }
 
@@ -247,7 +296,7 @@ std::vector<BodyId> Client::Impl::Bodies() const {
   const std::scoped_lock lock(mutex_);
   std::vector<BodyId> bodies;
   for (const auto& [body_id, person] : people_) {
-    if (person.definition) {
+    if (person.definition && !person.left) {
       bodies.push_back(body_id);
     }
   }
@@ -256,31 +305,30 @@ std::vector<BodyId> Client::Impl::Bodies() const {
 
 std::optional<body::BodyDefinition> Client::Impl::Definition(BodyId body_id) const {
   const std::scoped_lock lock(mutex_);
-  const auto person = people_.find(body_id);
-  return person == people_.end() ? std::nullopt : person->second.definition;
+  const Person* person = Find(body_id);
+  return person == nullptr ? std::nullopt : person->definition;
 }
 
 std::optional<body::Skeleton> Client::Impl::Latest(BodyId body_id) const {
   const std::scoped_lock lock(mutex_);
-  const auto person = people_.find(body_id);
-  if (person == people_.end() || person->second.skeletons.empty()) {
+  const Person* person = Find(body_id);
+  if (person == nullptr || person->skeletons.empty()) {
     return std::nullopt;
   }
-  return person->second.skeletons.latest();
+  return person->skeletons.latest();
 }
 
 std::optional<Pose> Client::Impl::PoseAt(BodyId body_id, Time at) const {
   const std::scoped_lock lock(mutex_);
-  const auto found = people_.find(body_id);
-  if (found == people_.end() || found->second.skeletons.empty()) {
+  const Person* person = Find(body_id);
+  if (person == nullptr || person->skeletons.empty()) {
     return std::nullopt;
   }
-  const Person& person = found->second;
   const bool same_definition =
-      person.kinematics &&
-      person.definition->revision == person.skeletons.latest().definition_revision;
-  return person.skeletons.At(at, options_.max_prediction,
-                             same_definition ? &*person.kinematics : nullptr);
+      person->kinematics &&
+      person->definition->revision == person->skeletons.latest().definition_revision;
+  return person->skeletons.At(at, options_.max_prediction,
+                              same_definition ? &*person->kinematics : nullptr);
 }
 
 Result<roster::CommandReply> Client::Impl::Send(roster::Command command, Duration timeout) {
@@ -293,8 +341,8 @@ Result<roster::CommandReply> Client::Impl::Send(roster::Command command, Duratio
     // First see the person whom a service speaks for: then the service itself is found, too.
     std::unique_lock lock(mutex_);
     const bool known = changed_.wait_until(lock, until, [&] {
-      const auto person = people_.find(command.body_id);
-      return person != people_.end() && person->second.definition.has_value();
+      const Person* person = Find(command.body_id);
+      return person != nullptr && person->definition.has_value();
     });
     if (!known) {
       return Error{ErrorCode::kNotFound,

@@ -53,7 +53,7 @@ class Client {
   /// The time scale of every `measured_at` and of PoseAt: the system's clock, Unix epoch.
   [[nodiscard]] Time Now() const;
 
-  /// People that are there: defined and not left. Ascending.
+  /// People that are there: defined, and neither disposed of nor out of the roster. Ascending.
   [[nodiscard]] std::vector<BodyId> Bodies() const;
 
   /// Names, dimensions and sensors of a person; nothing for an unknown one.

@@ -340,9 +340,14 @@ class Churn {
       count.processes.emplace("client", *is);
     }
     count.shared_memory_files = process::FilesIn("/dev/shm");
-    count.people = watcher_->Bodies().size();
+    for (const BodyId body_id : watcher_->Bodies()) {
+      count.people.push_back(fmt::format("body {}", body_id.value));
+    }
     for (const Person& person : people_) {
-      count.people += watcher_->Entry(person.body_id) ? 1U : 0U;
+      if (watcher_->Entry(person.body_id)) {
+        count.people.push_back(
+            fmt::format("{} in the roster as body {}", person.name, person.body_id.value));
+      }
     }
     return count;
   }
@@ -353,7 +358,7 @@ class Churn {
     // What is given back late is no leak; what is never given back is.
     (void)Eventually([&] {
       const ChurnCount now = Take(all_there_s);
-      return now.people == 0 &&
+      return now.people.empty() &&
              (counts_.empty() || LeakOf(counts_.front(), now, options_.limits).empty());
     });
     counts_.push_back(Take(all_there_s));

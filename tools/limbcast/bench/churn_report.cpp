@@ -1,6 +1,7 @@
 #include "tools/limbcast/bench/churn_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace limbcast::tool {
 namespace {
@@ -32,8 +33,8 @@ std::string LeakOf(const ChurnCount& first, const ChurnCount& now, const ChurnLi
     Add(leak, fmt::format("{} files in /dev/shm, were {}", now.shared_memory_files,
                           first.shared_memory_files));
   }
-  if (now.people > 0) {
-    Add(leak, fmt::format("{} people are still there", now.people));
+  if (!now.people.empty()) {
+    Add(leak, fmt::format("still there: {}", fmt::join(now.people, ", ")));
   }
   if (now.all_there_s < 0.0) {
     Add(leak, "not everybody had a skeleton in time");
@@ -56,7 +57,7 @@ std::string ChurnRow(const ChurnCount& first, const ChurnCount& now, const Churn
         found == now.processes.end() ? process::ProcessCount() : found->second;
     row += fmt::format(" | {:>6} {:>6} {:>7.1f}", is.threads, is.files, is.rss_mib);
   }
-  row += fmt::format(" | {:>4} {:>6}", now.shared_memory_files, now.people);
+  row += fmt::format(" | {:>4} {:>6}", now.shared_memory_files, now.people.size());
   const std::string leak = LeakOf(first, now, limits);
   return row + (leak.empty() ? "" : "  " + leak) + '\n';
 }
@@ -80,7 +81,7 @@ nlohmann::json ChurnJson(const std::vector<ChurnCount>& counts, const ChurnEvent
                                 {"all_there_s", count.all_there_s},
                                 {"processes", processes},
                                 {"shared_memory_files", count.shared_memory_files},
-                                {"people", count.people},
+                                {"people", count.people.size()},
                                 {"leak", leak}});
   }
   report["ok"] = ok;

@@ -17,7 +17,7 @@ struct ChurnCount {
   double all_there_s = 0.0;  ///< before, until each person had a skeleton; -1 = not in time
   std::map<std::string, process::ProcessCount> processes;  ///< session, fusion, posture, client
   std::size_t shared_memory_files = 0;
-  std::size_t people = 0;  ///< still in the roster or with a body
+  std::vector<std::string> people;  ///< who is still in the roster or has a body, and which
 };
 
 /// What happened meanwhile.

@@ -28,6 +28,8 @@ class ClientTest : public ::testing::Test {
     definition_.revision = 1;
     definitions_ = *bus_->MakeWriter<body::BodyDefinition>();
     skeletons_ = *bus_->MakeWriter<body::Skeleton>();
+    roster_ = *bus_->MakeWriter<roster::RosterEntry>();
+    entry_.body_id = kBody;
     replies_ = *bus_->MakeWriter<roster::CommandReply>();
     commands_ = *bus_->MakeReader<roster::Command>(
         {.on_sample =
@@ -52,6 +54,10 @@ class ClientTest : public ::testing::Test {
     client_ = std::move(*client);
   }
 
+  void Enter(const std::string& person) {
+    entry_.person = person;
+    EXPECT_TRUE(roster_->Write(entry_).ok());
+  }
   void Define() { EXPECT_TRUE(definitions_->Write(definition_).ok()); }
   void Show(Time at, float x_m) {
     body::Skeleton skeleton;
@@ -75,6 +81,8 @@ class ClientTest : public ::testing::Test {
   roster::Command last_command_;
   std::unique_ptr<bus::Writer<body::BodyDefinition>> definitions_;
   std::unique_ptr<bus::Writer<body::Skeleton>> skeletons_;
+  std::unique_ptr<bus::Writer<roster::RosterEntry>> roster_;
+  roster::RosterEntry entry_;
   std::unique_ptr<bus::Writer<roster::CommandReply>> replies_;
   std::unique_ptr<bus::Reader<roster::Command>> commands_;
   std::unique_ptr<Client> client_;
@@ -90,6 +98,50 @@ TEST_F(ClientTest, PeopleAppearWithTheirDefinitionAndVanishWhenTheyLeave) {
   ASSERT_TRUE(definitions_->Dispose(definition_).ok());
   EXPECT_THAT(client_->Bodies(), IsEmpty());
   EXPECT_FALSE(client_->Latest(kBody).has_value());
+}
+
+TEST_F(ClientTest, WhoIsOutOfTheRosterIsGoneThoughNobodyDisposesOfTheDefinition) {
+  // As when the posture service fell before the person left.
+  std::vector<bool> presence;
+  client_->OnBody([&](const body::BodyDefinition& body, bool present) {
+    EXPECT_EQ(body.name, "walker");
+    presence.push_back(present);
+  });
+  Enter("walker");
+  Define();
+  Show(clock_.Now(), 1.0F);
+  ASSERT_TRUE(roster_->Dispose(entry_).ok());
+  EXPECT_THAT(client_->Bodies(), IsEmpty());
+  EXPECT_FALSE(client_->Definition(kBody).has_value());
+  EXPECT_FALSE(client_->Latest(kBody).has_value());
+  EXPECT_FALSE(client_->PoseAt(kBody, clock_.Now()).has_value());
+  ASSERT_TRUE(definitions_->Dispose(definition_).ok());
+  EXPECT_THAT(presence, ElementsAre(true, false)) << "told once";
+}
+
+TEST_F(ClientTest, WhoComesBackIsThereWhateverNewsComesFirst) {
+  std::vector<bool> presence;
+  client_->OnBody(
+      [&](const body::BodyDefinition& /*body*/, bool present) { presence.push_back(present); });
+  Enter("walker");
+  Define();
+  ASSERT_TRUE(roster_->Dispose(entry_).ok());
+  Define();  // the new one is faster than the roster
+  EXPECT_THAT(client_->Bodies(), IsEmpty());
+  Enter("walker");
+  EXPECT_THAT(client_->Bodies(), ElementsAre(kBody));
+  EXPECT_THAT(presence, ElementsAre(true, false, true));
+}
+
+TEST_F(ClientTest, ABodyThatAnotherPersonGetsIsNotShownAsThatOfTheOneBefore) {
+  Enter("walker");
+  Define();
+  ASSERT_TRUE(roster_->Dispose(entry_).ok());
+  Enter("runner");
+  EXPECT_THAT(client_->Bodies(), IsEmpty());
+  definition_.name = "runner";
+  Define();
+  EXPECT_THAT(client_->Bodies(), ElementsAre(kBody));
 }
 
 TEST_F(ClientTest, ALateClientSeesWhoIsThere) {

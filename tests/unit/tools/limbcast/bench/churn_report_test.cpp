@@ -39,8 +39,8 @@ TEST(ChurnReportTest, EachThingThatIsKeptIsNamedWithBothValues) {
   shared.shared_memory_files = 4;
   EXPECT_EQ(LeakOf(Usual(), shared, {}), "4 files in /dev/shm, were 3");
   ChurnCount people = Usual();
-  people.people = 1;
-  EXPECT_EQ(LeakOf(Usual(), people, {}), "1 people are still there");
+  people.people = {"P1 in the roster", "body 2"};
+  EXPECT_EQ(LeakOf(Usual(), people, {}), "still there: P1 in the roster, body 2");
   ChurnCount late = Usual();
   late.all_there_s = -1.0;
   EXPECT_THAT(LeakOf(Usual(), late, {}), HasSubstr("skeleton"));
@@ -50,7 +50,7 @@ TEST(ChurnReportTest, ItIsGoodOnlyWithTwoCountsAndNothingAmiss) {
   EXPECT_FALSE(ChurnJson({Usual()}, {}, {})["ok"].get<bool>());
   EXPECT_TRUE(ChurnJson({Usual(), Usual()}, {}, {})["ok"].get<bool>());
   ChurnCount leaked = Usual();
-  leaked.people = 2;
+  leaked.people = {"body 1", "body 2"};
   EXPECT_FALSE(ChurnJson({Usual(), leaked, Usual()}, {}, {})["ok"].get<bool>());
   ChurnEvents events;
   events.killed["fusion"] = 2;
