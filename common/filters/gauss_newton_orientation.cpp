@@ -21,7 +21,7 @@ constexpr double kStartVariance_rad2 = 0.05 * 0.05;
 // Between the core's numbers and everybody else's.
 template <typename Scalar>
 kernel::Quaternion<Scalar> Plain(const Eigen::Quaterniond& q) {
-  const Eigen::Quaternion<Scalar> c = q.template cast<Scalar>();
+  const Eigen::Quaternion<Scalar>& c = q.template cast<Scalar>();
   return {c.w(), c.x(), c.y(), c.z()};
 }
 template <typename Scalar>

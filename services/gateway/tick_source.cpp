@@ -74,7 +74,7 @@ Result<DriverStep> TickSource::Next() {
 
 Result<DriverStep> TickSource::Load(Time start_at) {
   Expects(!loaded_, "one tick loaded at a time");
-  const Result<DriverStep> step = Next();
+  Result<DriverStep> step = Next();
   loaded_ = step && *step == DriverStep::kData;
   if (loaded_ && !first_tick_at_) {
     first_tick_at_ = batch_.tick_at;

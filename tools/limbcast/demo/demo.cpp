@@ -57,7 +57,7 @@ template <typename Done>
 Status Demo::Await(Duration patience, const std::string& what, Done&& done) {
   const Time deadline = clock_.Now() + patience;
   while (!done()) {
-    if (const Status alive = processes_.Supervise(); !alive) {
+    if (Status alive = processes_.Supervise(); !alive) {
       return alive;
     }
     if (stop_signal_.WaitFor(kLook)) {
@@ -103,11 +103,11 @@ Status Demo::Begin() {
   }
   // From the end to the beginning, so that nothing is sent that nobody hears.
   for (const Part part : {Part::kPosture, Part::kFusion}) {
-    if (const Status started = processes_.Start(part); !started) {
+    if (Status started = processes_.Start(part); !started) {
       return started;
     }
   }
-  if (const Status heard = Await(
+  if (Status heard = Await(
           kPatience, "sign of life from limbcast-fusion and limbcast-posture",
           [&] {
             return view_->skeleton_writers() > 0 && view_->With([](const PipelineModel& model) {
@@ -117,7 +117,7 @@ Status Demo::Begin() {
       !heard) {
     return heard;
   }
-  if (const Status started = processes_.Start(Part::kGateway); !started) {
+  if (Status started = processes_.Start(Part::kGateway); !started) {
     return started;
   }
   return Await(kPatience, "skeleton from the pipeline", [&] {
@@ -137,7 +137,7 @@ Status Demo::Watch() {
     if (stop_signal_.WaitFor(std::clamp<Duration>(left, Duration::zero(), kLook))) {
       break;
     }
-    if (const Status alive = processes_.Supervise(); !alive) {
+    if (Status alive = processes_.Supervise(); !alive) {
       return alive;
     }
     const Time now = clock_.Now();
@@ -169,6 +169,7 @@ void Demo::AskReferencePose(Time now) {
   }
   const auto bodies = view_->With([](const PipelineModel& model) {
     std::vector<BodyId> ids;
+    ids.reserve(model.bodies.size());
     for (const auto& [id, body] : model.bodies) {
       ids.push_back(id);
     }

@@ -96,14 +96,14 @@ Status Validate(const SimulatorConfig& config) {
   const auto ranged = [](std::string_view name, double value, const Range& range) {
     return RangedValue{.name = name, .value = value, .min = range.min, .max = range.max};
   };
-  if (const Status ok = CheckRanges(
-          "simulator.", {ranged("persons", static_cast<double>(config.persons), kPersons),
-                         ranged("rate_hz", config.rate_hz, kRate_hz),
-                         ranged("duration_s", config.duration_s, kDuration_s),
-                         ranged("n_pose_s", config.n_pose_s, kNPose_s),
-                         ranged("facing_rad", config.facing_rad, {-6.3, 6.3}),
-                         ranged("height_m", config.height_m, kHeight_m),
-                         ranged("spacing_m", config.spacing_m, kSpacing_m)});
+  if (Status ok = CheckRanges("simulator.",
+                              {ranged("persons", static_cast<double>(config.persons), kPersons),
+                               ranged("rate_hz", config.rate_hz, kRate_hz),
+                               ranged("duration_s", config.duration_s, kDuration_s),
+                               ranged("n_pose_s", config.n_pose_s, kNPose_s),
+                               ranged("facing_rad", config.facing_rad, {-6.3, 6.3}),
+                               ranged("height_m", config.height_m, kHeight_m),
+                               ranged("spacing_m", config.spacing_m, kSpacing_m)});
       !ok) {
     return ok;
   }
@@ -112,10 +112,10 @@ Status Validate(const SimulatorConfig& config) {
                  "simulator.serial_prefix must have at most 16 characters, has " +
                      std::to_string(config.serial_prefix.size())};
   }
-  if (const Status coils = Validate(config.coils); !coils) {
+  if (Status coils = Validate(config.coils); !coils) {
     return coils;
   }
-  if (const Status cameras = Validate(config.cameras); !cameras) {
+  if (Status cameras = Validate(config.cameras); !cameras) {
     return cameras;
   }
   return Validate(config.faults);
