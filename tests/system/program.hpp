@@ -34,7 +34,8 @@ struct Outcome {
 /// A DDS domain in [0, 101] that nothing on this host uses, another one for each call.
 [[nodiscard]] std::uint32_t OwnDomain();
 
-/// Processes alive now in this network of which a command-line argument list contains `--domain <domain>`.
+/// Processes alive now in this network of which an argument list contains `--domain
+/// <domain>`.
 [[nodiscard]] std::vector<pid_t> ProcessesOnDomain(std::uint32_t domain);
 /// The one of these whose executable is `name`, or 0.
 [[nodiscard]] pid_t ProcessOnDomain(std::uint32_t domain, const std::string& name);
