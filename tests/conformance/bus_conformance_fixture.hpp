@@ -11,6 +11,7 @@
 #include "common/bus/bus_factory.hpp"
 #include "tests/conformance/collector.hpp"
 #include "tests/conformance/peer.hpp"
+#include "tests/unit/common/bus/test_domain.hpp"
 
 namespace limbcast::conformance {
 
@@ -38,7 +39,7 @@ class BusConformance : public ::testing::TestWithParam<Pair> {
   BusConformance() {
     static std::atomic<unsigned> tests = 0;
     const auto number = static_cast<unsigned>(getpid()) * 7U + tests++;
-    domain_ = number % 102;  // tests of a parallel run rarely share one; the partition never
+    domain_ = bus::testing::TestDomain();  // CTest runs each test in a process of its own
     partition_ = "p" + std::to_string(getpid()) + "_" + std::to_string(number);
   }
 

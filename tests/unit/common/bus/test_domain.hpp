@@ -1,9 +1,12 @@
 #pragma once
 
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -15,15 +18,38 @@
 
 namespace limbcast::bus::testing {
 
-/// A domain that other tests of this machine are unlikely to use now.
-inline std::uint32_t TestDomain() { return static_cast<std::uint32_t>(getpid()) % 102; }
+/// A domain that no other test of this machine uses now: a name bound to this process says so.
+inline std::uint32_t TestDomain() {
+  constexpr std::uint32_t kDomains = 102;
+  static const std::uint32_t domain = [] {
+    const auto first = static_cast<std::uint32_t>(getpid());
+    for (std::uint32_t i = 0; i < kDomains; ++i) {
+      const std::uint32_t candidate = (first + i) % kDomains;
+      const std::string name = "limbcast-test-domain-" + std::to_string(candidate);
+      sockaddr_un address{};
+      address.sun_family = AF_UNIX;  // the first byte of the path stays 0: an abstract name
+      name.copy(&address.sun_path[1], name.size());
+      const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+      const int fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+      // NOLINTNEXTLINE(*-reinterpret-cast): the interface of bind
+      if (bind(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0) {
+        return candidate;  // the socket stays open as long as the process
+      }
+      close(fd);
+    }
+    return first % kDomains;
+  }();
+  return domain;
+}
 
 /// In a partition of this process: on a domain that is in use after all, nobody is met by mistake.
 inline BusConfig LoopbackConfig(Vendor vendor) {
-  return {.vendor = vendor,
-          .domain_id = TestDomain(),
-          .partition = "unit-test-" + std::to_string(getpid()),
-          .participant_name = "limbcast-unit-test"};
+  BusConfig config;
+  config.vendor = vendor;
+  config.domain_id = TestDomain();
+  config.partition = "unit-test-" + std::to_string(getpid());
+  config.participant_name = "limbcast-unit-test";
+  return config;
 }
 
 /// Collects from middleware threads; tests wait for what they expect, never for time to pass.
