@@ -11,6 +11,7 @@
 #include "common/config/toml_ascii.hpp"
 
 namespace limbcast::config::internal {
+
 std::string PlaceOf(const Document& document, const toml::node* node) {
   if (node == nullptr || node->source().begin.line == 0) {
     return document.name;

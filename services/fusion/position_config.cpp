@@ -49,8 +49,8 @@ PositionConfig ReadPositionConfig(const config::Section& fusion) {
   PositionConfig config;
   config.lag_s = fusion.Read("position_lag_s", config.lag_s, 0.0, kMostLag_s);
   const config::Section coils = fusion.Get("coils");
-  config.coils.source = config::ReadNamed(coils, "source", config.coils.source, body::ParseSegment,
-                                          "a segment like pelvis");
+  config.coils.source = config::ReadNamedIfAny(coils, "source", config.coils.source,
+                                               body::ParseSegment, "a segment like pelvis");
   config.coils.sensors = config::ReadNamedList(coils, "sensors", config.coils.sensors,
                                                body::ParseSegment, "segments like right_fore_arm");
   config.coils.current_a = coils.Read("current_a", config.coils.current_a, 0.01, 20.0);

@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr double kBytesPerMib = 1024.0 * 1024.0;
 
+// An entry that vanishes meanwhile does no harm.
 template <typename Counts>
 std::size_t CountIn(const fs::path& folder, Counts counts) {
   std::error_code error;
@@ -34,7 +35,6 @@ bool StaysOpen(const fs::path& descriptor) {
 
 }  // namespace
 
-// One that vanishes meanwhile does no harm.
 std::size_t FilesIn(const fs::path& folder) {
   return CountIn(folder, [](const fs::path& /*entry*/) { return true; });
 }

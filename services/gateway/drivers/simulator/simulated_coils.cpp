@@ -17,8 +17,8 @@ constexpr double kFarthest_m = 10.0;
 
 SimulatedCoilsConfig ReadSimulatedCoils(const config::Section& section,
                                         SimulatedCoilsConfig config) {
-  config.source = config::ReadNamed(section, "source", config.source, body::ParseSegment,
-                                    "a segment like pelvis");
+  config.source = config::ReadNamedIfAny(section, "source", config.source, body::ParseSegment,
+                                         "a segment like pelvis");
   config.sensors = config::ReadNamedList(section, "sensors", config.sensors, body::ParseSegment,
                                          "segments like right_fore_arm");
   config.coils.radius_m = section.Read("radius_m", config.coils.radius_m, 0.005, 1.0);

@@ -35,19 +35,24 @@ TEST(NamedValuesTest, WithoutTheKeyItIsTheFallback) {
 TEST(NamedValuesTest, OneName) {
   const auto file = ConfigFile::Parse("[a]\nx = \"two\"\ny = \"\"\n", "t.toml");
   ASSERT_TRUE(file.ok());
-  EXPECT_EQ(ReadNamed(file->Get("a"), "x", 7, Number, "a number"), 2);
-  EXPECT_EQ(ReadNamed(file->Get("a"), "y", 7, Number, "a number"), 7);
-  EXPECT_EQ(ReadNamed(file->Get("a"), "z", std::optional<int>(), Number, "a number"), std::nullopt);
+  const Section section = file->Get("a");
+  EXPECT_EQ(ReadNamed(section, "x", 7, Number, "a number"), 2);
+  EXPECT_EQ(ReadNamed(section, "z", 7, Number, "a number"), 7);
+  EXPECT_EQ(ReadNamedIfAny(section, "x", std::optional<int>(), Number, "a number"), 2);
+  EXPECT_EQ(ReadNamedIfAny(section, "y", std::optional<int>(7), Number, "a number"), 7);
+  EXPECT_EQ(ReadNamedIfAny(section, "z", std::optional<int>(), Number, "a number"), std::nullopt);
   EXPECT_TRUE(file->Finish().ok());
 }
 
 TEST(NamedValuesTest, OneUnknownNameIsRefusedWithItsPlace) {
-  const auto file = ConfigFile::Parse("[a]\nx = \"ten\"\n", "t.toml");
-  ASSERT_TRUE(file.ok());
-  EXPECT_EQ(ReadNamed(file->Get("a"), "x", 7, Number, "a number"), 7);
-  const Status finished = file->Finish();
-  ASSERT_FALSE(finished.ok());
-  EXPECT_EQ(finished.error().message, "t.toml:2: a.x must be a number, is 'ten'");
+  for (const std::string name : {"ten", ""}) {
+    const auto file = ConfigFile::Parse("[a]\nx = \"" + name + "\"\n", "t.toml");
+    ASSERT_TRUE(file.ok());
+    EXPECT_EQ(ReadNamed(file->Get("a"), "x", 7, Number, "a number"), 7);
+    const Status finished = file->Finish();
+    ASSERT_FALSE(finished.ok());
+    EXPECT_EQ(finished.error().message, "t.toml:2: a.x must be a number, is '" + name + "'");
+  }
 }
 
 TEST(NamedValuesTest, AnUnknownNameIsRefusedWithItsPlace) {

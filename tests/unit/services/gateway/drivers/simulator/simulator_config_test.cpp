@@ -87,6 +87,7 @@ TEST(SimulatorConfigTest, RefusalsNameTheKey) {
       Parse("[[simulator.faults.list]]\ntick = 1\nsegment = \"tail\"\nfault = \"gap\"");
   ASSERT_FALSE(parsed.status.ok());
   EXPECT_NE(parsed.status.error().message.find("tail"), std::string::npos);
+  EXPECT_FALSE(Parse("[[simulator.faults.list]]\nsegment = \"\"").status.ok()) << "no segment";
 }
 
 TEST(SimulatorConfigTest, ValidateHoldsTheSameRanges) {
