@@ -35,8 +35,16 @@ struct CoilFrame {
   bool emitter_inertial = true;     ///< false: a fixed source; the two below mean nothing
   Eigen::Vector3d emitter_gyro_rad_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d emitter_accel_m_s2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d emitter_mag_tesla = Eigen::Vector3d::Zero();
+  bool emitter_mag_valid = false;  ///< the source's unit has a magnetometer, and it was not clipped
   CoilDrive drive;
 
+  /// The source's magnetometer measured the field around it; while one of its own coils is on, or
+  /// settles, it cannot.
+  [[nodiscard]] bool HasEmitterField() const {
+    return emitter_inertial && emitter_mag_valid && drive.coil < 0 && drive.settled &&
+           emitter_mag_tesla.allFinite();
+  }
   /// The magnetometer measured the field of `drive` and of what is around.
   [[nodiscard]] bool HasField() const {
     return drive.settled && mag_valid && mag_tesla.allFinite();

@@ -62,6 +62,11 @@ void CoilStream::Pulse(int coil, double current_a) {
             .current_a = current_a};
 }
 
+Eigen::Vector3d CoilStream::AddedField_tesla(const Eigen::Vector3d& p_m) const {
+  const double L = config_.gradient_reach_m;
+  return config_.gradient_tesla_m * (L * ((p_m - p_begin_m_) / L).array().sin().matrix());
+}
+
 sensing::CoilDrive CoilStream::Drive(double t_s, const RigidMotion& emitter,
                                      const Eigen::Vector3d& p_m,
                                      Eigen::Vector3d& field_E_tesla) const {
@@ -93,21 +98,25 @@ CoilTick CoilStream::Next() {
   const RigidMotion emitter = config_.emitter(t_s);
   IdealMarg ideal = MakeIdealMarg(sensor, {}, config_.world);
   const Eigen::Vector3d p_m = sensor.p_earth_local_m;
-  const double L = config_.gradient_reach_m;
-  const Eigen::Vector3d levelled_m = L * ((p_m - p_begin_m_) / L).array().sin().matrix();
-  Eigen::Vector3d added_E = config_.gradient_tesla_m * levelled_m;
+  Eigen::Vector3d added_E = AddedField_tesla(p_m);
+  Eigen::Vector3d added_at_emitter_E = AddedField_tesla(emitter.p_earth_local_m);
   CoilTick tick;
   tick.frame.drive = Drive(t_s, emitter, p_m, added_E);
+  Drive(t_s, emitter, emitter.p_earth_local_m, added_at_emitter_E);
   for (const ForeignSource& other : config_.foreign) {
-    added_E +=
-        SourceField_tesla(config_.source, TrueCurrent(other.pulses, t_s), other.motion(t_s), p_m);
+    const CoilCurrent current = TrueCurrent(other.pulses, t_s);
+    const RigidMotion motion = other.motion(t_s);
+    added_E += SourceField_tesla(config_.source, current, motion, p_m);
+    added_at_emitter_E +=
+        SourceField_tesla(config_.source, current, motion, emitter.p_earth_local_m);
     const sensing::CoilDrive drive = StatedDrive(other.pulses, t_s);
     if (other.masked && (drive.coil >= 0 || !drive.settled)) {
       tick.frame.drive.settled = false;
     }
   }
   ideal.mag_tesla += sensor.R_earth_local.transpose() * added_E;
-  const IdealMarg emitter_ideal = MakeIdealMarg(emitter, {}, config_.world);
+  IdealMarg emitter_ideal = MakeIdealMarg(emitter, {}, config_.world);
+  emitter_ideal.mag_tesla += emitter.R_earth_local.transpose() * added_at_emitter_E;
 
   sensing::MargSample read;
   sensor_model_.Read(ideal, read);
@@ -122,6 +131,9 @@ CoilTick CoilStream::Next() {
   tick.frame.emitter_inertial = config_.emitter_inertial;
   tick.frame.emitter_gyro_rad_s = emitter_read.gyro_rad_s.cast<double>();
   tick.frame.emitter_accel_m_s2 = emitter_read.accel_m_s2.cast<double>();
+  tick.frame.emitter_mag_tesla = emitter_read.mag_tesla.cast<double>();
+  tick.frame.emitter_mag_valid = config_.emitter_inertial && config_.emitter_magnetometer &&
+                                 !emitter_read.Has(sensing::kMagSaturated);
   tick.frame.inertial_saturated =
       ((read.flags | (config_.emitter_inertial ? emitter_read.flags : 0U)) & kInertialSaturated) !=
       0U;

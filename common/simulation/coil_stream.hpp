@@ -35,6 +35,8 @@ struct CoilStreamConfig {
   MotionFunction sensor;         ///< the sensor's own axes and place
   MotionFunction emitter;        ///< the axes and centre of the coils
   bool emitter_inertial = true;  ///< false: a fixed source without inertial unit
+  /// The source's unit has a magnetometer, too; of no use while one of its coils is on.
+  bool emitter_magnetometer = true;
   double rate_hz = 120.0;
   MargErrors errors;  ///< of both inertial units, drawn for each
   MagneticWorld world;
@@ -81,6 +83,8 @@ class CoilStream {
 
  private:
   CoilStreamConfig config_;
+  // The gradient's part of the field.
+  [[nodiscard]] Eigen::Vector3d AddedField_tesla(const Eigen::Vector3d& p_m) const;
   // Adds the field of the source to `field_E_tesla`; returns what it says that it does.
   sensing::CoilDrive Drive(double t_s, const RigidMotion& emitter, const Eigen::Vector3d& p_m,
                            Eigen::Vector3d& field_E_tesla) const;

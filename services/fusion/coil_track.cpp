@@ -88,6 +88,12 @@ std::optional<SegmentPosition> CoilTrack::Update(const sensing::MargSample& samp
   frame.inertial_saturated = ((sample.flags | source.flags) & kInertialSaturated) != 0;
   frame.emitter_gyro_rad_s = OrNaN(source.gyro_rad_s, source_there);
   frame.emitter_accel_m_s2 = OrNaN(source.accel_m_s2, source_there);
+  // Of its own instant: a pulse may have begun between the two samples.
+  const sensing::CoilDrive at_source = sensing::CoilDriveOf(source.flags, current_a_);
+  const Eigen::Vector3d turned_rad = -apart_s * source.gyro_rad_s.cast<double>();
+  frame.emitter_mag_tesla = math::ExpSO3(turned_rad).conjugate() * source.mag_tesla.cast<double>();
+  frame.emitter_mag_valid =
+      source_there && (source.flags & kMagUseless) == 0 && at_source.coil < 0 && at_source.settled;
   frame.drive = sensing::CoilDriveOf(sample.flags, current_a_);
   const filters::CoilUpdateReport report = filter_.Update(frame);
   if (lag_ && report.verdict != filters::CoilFrameVerdict::kRejectedOutOfOrder) {

@@ -16,7 +16,9 @@
 #include "tools/limbcast/evaluate/coil_beyond.hpp"
 #include "tools/limbcast/evaluate/coil_endurance.hpp"
 #include "tools/limbcast/evaluate/coil_recording.hpp"
+#include "tools/limbcast/evaluate/coil_repetitions.hpp"
 #include "tools/limbcast/evaluate/coil_report.hpp"
+#include "tools/limbcast/evaluate/coil_states.hpp"
 #include "tools/limbcast/evaluate/parallel.hpp"
 #include "tools/limbcast/evaluate/progress_bar.hpp"
 #include "tools/limbcast/evaluate/recordings.hpp"
@@ -31,8 +33,10 @@ struct CoilOptions {
   std::string data;
   double hours = 0.0;
   int runs = 0;
+  int repetitions = kCoilRepetitions;
   bool adaptive = false;
   bool sources = false;
+  bool states = false;
   std::string json;
 };
 
@@ -70,7 +74,9 @@ std::vector<Result> OfEach(const CoilOptions& options,
 
 int EvaluateExperiments(const CoilOptions& options) {
   const std::vector<CoilExperiment> experiments = MakeCoilExperiments(options.seed);
-  const auto results = OfEach<CoilResult>(options, experiments, &EvaluateCoil);
+  const auto results = RepeatCoilExperiments(
+      options.only, options.seed, options.repetitions,
+      [](std::size_t done, std::size_t all) { ShowProgress(done, all, "trials"); });
   fmt::print("{}", CoilTable(experiments, results));
   return Save(options, CoilJson(experiments, results, options.seed));
 }
@@ -88,6 +94,25 @@ int EvaluateSources(const CoilOptions& options) {
   const auto results = OfEach<CoilBeyondResult>(options, experiments, &EvaluateBeyond);
   fmt::print("{}", BeyondTable(results));
   return Save(options, BeyondJson(results, options.seed));
+}
+
+int EvaluateStates(const CoilOptions& options) {
+  const std::vector<CoilExperiment> experiments = MakeCoilExperiments(options.seed);
+  std::vector<std::pair<CoilNoise, std::size_t>> wanted;
+  for (const CoilNoise noise : kNoises) {
+    for (std::size_t i = 0; i < experiments.size(); ++i) {
+      if (experiments[i].name.find(options.only) != std::string::npos) {
+        wanted.emplace_back(noise, i);
+      }
+    }
+  }
+  std::vector<CoilStatesResult> results(wanted.size());
+  ForEachIndex(wanted.size(), [&](std::size_t i) {
+    results[i] =
+        EvaluateCoilStates(wanted[i].second, wanted[i].first, options.seed, options.repetitions);
+  });
+  fmt::print("{}", CoilStatesTable(results));
+  return Save(options, CoilStatesJson(results, options.seed));
 }
 
 int EvaluateRecordings(const CoilOptions& options) {
@@ -152,10 +177,14 @@ int EvaluateEndurance(const CoilOptions& options) {
 
 int EvaluateCoils(const CoilOptions& options) {
   const bool endurance = options.hours > 0.0 || options.runs > 0;
-  if ((endurance || options.adaptive || options.sources) && !options.data.empty()) {
+  if ((endurance || options.adaptive || options.sources || options.states) &&
+      !options.data.empty()) {
     return Refuse(kCommand, {ErrorCode::kInvalidArgument,
-                             "--data is for recordings; --hours, --runs, --adaptive and --sources "
-                             "are for simulations"});
+                             "--data is for recordings; --hours, --runs, --adaptive, --sources and "
+                             "--states are for simulations"});
+  }
+  if (options.states) {
+    return EvaluateStates(options);
   }
   if (options.sources) {
     return EvaluateSources(options);
@@ -183,8 +212,13 @@ SubCommand AddEvaluateCoil(CLI::App& evaluate) {
       "  limbcast evaluate coil --data ../shared/data/broad --only 16\n"
       "  limbcast evaluate coil --hours 10 --runs 1000\n"
       "  limbcast evaluate coil --adaptive\n"
-      "  limbcast evaluate coil --sources");
+      "  limbcast evaluate coil --sources\n"
+      "  limbcast evaluate coil --states");
   app->add_option("--seed", options->seed, "Seed of motions, errors and noise");
+  app->add_option("--repetitions", options->repetitions,
+                  "How often each published experiment is simulated; the thesis did it ten times")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
   app->add_option("--only", options->only,
                   "Only experiments or recordings whose name has this in it");
   app->add_option("--data", options->data,
@@ -198,6 +232,8 @@ SubCommand AddEvaluateCoil(CLI::App& evaluate) {
                 "Pulses when the filter is uncertain, beside pulses in turn");
   app->add_flag("--sources", options->sources,
                 "Sources that were not published: coils apart, and three tones at once");
+  app->add_flag("--states", options->states,
+                "What the filter's states beyond the specification gain");
   app->add_option("--json", options->json, "File for the figures");
   return {.app = app, .run = [options] { return EvaluateCoils(*options); }};
 }

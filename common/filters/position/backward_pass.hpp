@@ -14,6 +14,7 @@ struct BackwardRecord {
   BlockTransition<N, M> into;  ///< from the epoch before to this one
   MeasurementRecord<N, Z> measurement;
   bool chain_begins = false;  ///< the state was set anew here: nothing goes back past this epoch
+  bool stays = false;         ///< a further measurement of the same instant: `into` is not read
 };
 
 /// Backward pass of the fixed-interval and fixed-lag smoother in the form of Bryson and Frazier, as
@@ -42,7 +43,9 @@ void StepBack(const BackwardRecord<N, M, Z>& record, Eigen::Matrix<double, N, 1>
     const Eigen::Matrix<double, Z, 1> pull = m.S_inverse * m.nu - m.K.transpose() * lambda;
     lambda.noalias() += m.H.transpose() * pull;
   }
-  PropagateBack(record.into, lambda);
+  if (!record.stays) {
+    PropagateBack(record.into, lambda);
+  }
 }
 
 /// The same for the information Λ.
@@ -61,7 +64,9 @@ void StepBack(const BackwardRecord<N, M, Z>& record, Eigen::Matrix<double, N, N>
     const Eigen::Matrix<double, N, N> change = m.H.transpose() * half;
     Lambda += change + change.transpose();
   }
-  PropagateBack(record.into, Lambda);
+  if (!record.stays) {
+    PropagateBack(record.into, Lambda);
+  }
 }
 
 /// Covariance that later measurements leave of `rows` (C of them) of an epoch, without Λ: the rows
@@ -72,9 +77,11 @@ void StepBack(const BackwardRecord<N, M, Z>& record, Eigen::Matrix<double, N, N>
 template <int N, int M, int Z, int C>
 void StepForward(const BackwardRecord<N, M, Z>& record, Eigen::Matrix<double, C, N>& W,
                  Eigen::Matrix<double, C, C>& cov) {
-  const Eigen::Matrix<double, C, M> moving = W * record.into.top.transpose();
-  W.template rightCols<N - M>() = W.template rightCols<N - M>() * record.into.decay.asDiagonal();
-  W.template leftCols<M>() = moving;
+  if (!record.stays) {
+    const Eigen::Matrix<double, C, M> moving = W * record.into.top.transpose();
+    W.template rightCols<N - M>() = W.template rightCols<N - M>() * record.into.decay.asDiagonal();
+    W.template leftCols<M>() = moving;
+  }
   const auto& m = record.measurement;
   if (m.fused) {
     const Eigen::Matrix<double, C, Z> WH = W * m.H.transpose();

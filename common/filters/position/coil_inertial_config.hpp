@@ -12,7 +12,8 @@
 namespace limbcast::filters {
 
 /// Tuning of CoilInertialFilter; defaults of design/position.md sections 3, 9 and 10. Without
-/// `estimate_calibration` and `estimate_gyro_delay` it is the filter of section 10.
+/// `estimate_calibration`, `estimate_gyro_delay` and `estimate_gradient` it is the filter of
+/// section 10.
 struct CoilInertialConfig {
   sensing::CoilSource source;
   InertialNoise inertial;  ///< of both units
@@ -20,6 +21,10 @@ struct CoilInertialConfig {
   bool estimate_calibration = true;
   /// How much later than the accelerometer the sensor's gyro is.
   bool estimate_gyro_delay = true;
+  /// The gradient of the background (5 states) and an offset of the source's magnetometer (3). The
+  /// field at the source then says what it is at the sensor, so that the source's magnetometer is
+  /// used between pulses; without the gradient it is not.
+  bool estimate_gradient = true;
 
   /// With tones (CoilTones): what a pulse is with pulses. Range: [0.05, 2]
   double tone_window_s = 0.2;
@@ -30,9 +35,21 @@ struct CoilInertialConfig {
   double relative_field_error = 0.01;
   /// Random walk of the background field; about gradient times speed. Range: [0, 1e-4]
   double walk_background_tesla_rts = 0.3e-6;
+  /// What is left of that walk when the gradient is estimated: the field at the source changes with
+  /// the source's motion only, and that is the slower one. Range: [0, 1]
+  double walk_beside_gradient = 0.3;
+  /// Random walk of the gradient, as a part of that of the background, each metre. Range: [0, 10]
+  double walk_gradient_per_m = 0.3;
+  /// What scale and misalignment of the magnetometer make of the background while the sensor turns:
+  /// a walk of this part of it in one radian. Range: [0, 0.1]
+  double mag_calibration_error = 2e-3;
   int iterations = 3;     ///< of the update. Range: [1, 10]
   double max_step = 0.3;  ///< of |p|, in one update. Range: (0, 1]
   SoftGateConfig gate;
+
+  /// The source's own magnetometer counts so long after the last of its coils settled: it is among
+  /// them, where what is left of a pulse is a thousand times as strong. Range: [0, 1]
+  double emitter_quiet_s = 0.015;
 
   /// Gauge pinning: the source's accelerometer shows gravity, the background stays what it was.
   double sigma_gravity_m_s2 = 8.0;         ///< of one sample. Range: [0.1, 100]
@@ -54,6 +71,8 @@ struct CoilInertialConfig {
   double start_sigma_accel_bias_m_s2 = 0.05;
   double start_sigma_gyro_bias_rad_s = 5.2e-3;
   double start_sigma_background_tesla = 1e-6;
+  double start_sigma_gradient_tesla_m = 0.5e-6;          ///< each element. Range: [0, 1e-4]
+  double start_sigma_emitter_mag_offset_tesla = 0.5e-6;  ///< Range: [0, 1e-4]
   /// Of each element; without unit. Range: [0, 0.1]
   double start_sigma_accel_matrix = 0.01;
   double start_sigma_gyro_matrix = 0.01;

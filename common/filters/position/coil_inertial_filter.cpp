@@ -120,6 +120,7 @@ CoilUpdateReport CoilInertialFilter::Update(const sensing::CoilFrame& given) {
     Acquire(frame, report);
   } else {
     UseSample(frame, report);
+    UseEmitterSample(frame);
     UseGauges(frame);
     WatchTrack(frame, report);
   }
@@ -188,6 +189,11 @@ void CoilInertialFilter::Level(const sensing::CoilFrame& frame) {
     SetVariance(P_, Index::kEmitterGyroBias, 0.0);
   }
   SetVariance(P_, Index::kBackground, config_.start_sigma_background_tesla);
+  if (config_.estimate_gradient) {
+    const double sigma = config_.start_sigma_gradient_tesla_m;
+    P_.diagonal().segment<5>(Index::kGradient).setConstant(sigma * sigma);
+    SetVariance(P_, Index::kEmitterMagOffset, config_.start_sigma_emitter_mag_offset_tesla);
+  }
   if (config_.estimate_calibration) {
     SetMatrixVariance(P_, Index::kSensorAccelMatrix, config_.start_sigma_accel_matrix);
     SetMatrixVariance(P_, Index::kSensorGyroMatrix, config_.start_sigma_gyro_matrix);
@@ -205,6 +211,7 @@ void CoilInertialFilter::Propagate(const sensing::CoilFrame& frame, double dt_s,
   CoilRecord& record = records_[0];
   record_count_ = phase_ == CoilPhase::kTracking ? 1 : 0;
   record.chain_begins = false;
+  record.stays = false;
   record.measurement.fused = false;
   record.into = {};
   record.into.decay.setOnes();
@@ -245,6 +252,14 @@ void CoilInertialFilter::Propagate(const sensing::CoilFrame& frame, double dt_s,
   double walk = config_.walk_background_tesla_rts;
   if (frame.measured_at < disturbed_until_) {
     walk *= 10.0;
+  }
+  if (config_.estimate_gradient) {
+    const double walk_gradient = config_.walk_gradient_per_m * walk;
+    P_.diagonal().segment<5>(Index::kGradient).array() += walk_gradient * walk_gradient * dt_s;
+    walk *= config_.walk_beside_gradient;
+    const double of_radian = config_.mag_calibration_error * state_.background_earth_tesla.norm();
+    P_.diagonal().segment<3>(Index::kBackground).array() +=
+        of_radian * of_radian * frame.gyro_rad_s.norm() * dt_s;
   }
   P_.diagonal().segment<3>(Index::kBackground).array() += walk * walk * dt_s;
 }
@@ -344,35 +359,6 @@ void CoilInertialFilter::GuardCovariance(CoilUpdateReport& report) {
   if (phase_ == CoilPhase::kTracking) {
     record_count_ = 1;
     records_[0].chain_begins = true;
-  }
-}
-
-void CoilInertialFilter::UseGauges(const sensing::CoilFrame& frame) {
-  const auto use = [&](double sigma) {
-    CoilRecord& record = records_[record_count_];
-    record.into = {};
-    record.chain_begins = false;
-    // No gate: these say little, and always something.
-    SoftUpdate({.downweight_above_nis = 1e12, .reject_above_nis = 1e12},
-               Eigen::Matrix3d(sigma * sigma * Eigen::Matrix3d::Identity()), false, P_,
-               record.measurement);
-    if (record.measurement.fused) {
-      state_ = Plus(state_, record.measurement.K * record.measurement.nu);
-    }
-    ++record_count_;
-  };
-  const double since_gravity_s = ToSeconds(frame.measured_at - gravity_at_);
-  if (frame.emitter_inertial && since_gravity_s >= config_.gravity_period_s) {
-    constexpr double kSample_s = 1.0 / 120.0;  // the deviation is stated for one such sample
-    GravityGauge(state_, frame.emitter_accel_m_s2, records_[record_count_].measurement);
-    use(config_.sigma_gravity_m_s2 *
-        std::sqrt(std::min(1.0, kSample_s / std::max(since_gravity_s, kSample_s))));
-    gravity_at_ = frame.measured_at;
-  }
-  if (ToSeconds(frame.measured_at - background_at_) >= config_.background_period_s) {
-    BackgroundGauge(state_, background_start_tesla_, records_[record_count_].measurement);
-    use(config_.sigma_background_tesla);
-    background_at_ = frame.measured_at;
   }
 }
 

@@ -98,6 +98,10 @@ class CoilInertialFilter {
   void EnterTracking(const sensing::CoilFrame& frame);
   void UseSample(const sensing::CoilFrame& frame, CoilUpdateReport& report);
   [[nodiscard]] bool FitsWithoutCoil(const sensing::CoilFrame& frame) const;
+  /// A further measurement of this instant: to be filled in, and then used.
+  [[nodiscard]] MeasurementRecord<CoilInertialIndex::kAll, 3>& Further();
+  void UseFurther(const SoftGateConfig& gate, double sigma);
+  void UseEmitterSample(const sensing::CoilFrame& frame);
   void UseGauges(const sensing::CoilFrame& frame);
   void GuardCovariance(CoilUpdateReport& report);
   void WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report);
@@ -116,7 +120,7 @@ class CoilInertialFilter {
   std::optional<sensing::CoilFrame> last_;
   InertialBlock sensor_block_;
   InertialBlock emitter_block_;
-  std::array<CoilRecord, 3> records_;
+  std::array<CoilRecord, 4> records_;
   std::size_t record_count_ = 0;
 
   // Levelling: sums since rest began.
@@ -135,6 +139,7 @@ class CoilInertialFilter {
   Eigen::Vector3d background_start_tesla_ = Eigen::Vector3d::Zero();
   Time gravity_at_{};
   Time background_at_{};
+  Time source_on_at_{};  // last time that a coil was on, or settled
   Time disturbed_until_{};
   bool ever_tracked_ = false;
   bool at_rest_ = true;  // since levelling: the first pose may take it that nothing moves

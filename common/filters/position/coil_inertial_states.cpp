@@ -8,11 +8,24 @@ namespace limbcast::filters {
 
 using Index = CoilInertialIndex;
 
+Eigen::Matrix3d GradientOf(const Eigen::Matrix<double, 5, 1>& e) {
+  Eigen::Matrix3d G;
+  G << e[0], e[2], e[3],  //
+      e[2], e[1], e[4],   //
+      e[3], e[4], -e[0] - e[1];
+  return G;
+}
+
+Eigen::Matrix<double, 5, 1> GradientElements(const Eigen::Matrix3d& G) {
+  return {G(0, 0), G(1, 1), G(0, 1), G(0, 2), G(1, 2)};
+}
+
 bool CoilInertialState::IsFinite() const {
   return p_earth_m.allFinite() && v_earth_m_s.allFinite() && q_earth_sensor.coeffs().allFinite() &&
          q_earth_emitter.coeffs().allFinite() && sensor.gyro_bias_rad_s.allFinite() &&
          sensor.accel_bias_m_s2.allFinite() && emitter.gyro_bias_rad_s.allFinite() &&
          emitter.accel_bias_m_s2.allFinite() && background_earth_tesla.allFinite() &&
+         gradient_earth_tesla_m.allFinite() && emitter_mag_offset_tesla.allFinite() &&
          sensor.accel_matrix.allFinite() && sensor.gyro_matrix.allFinite() &&
          std::isfinite(sensor.gyro_delay_s);
 }
@@ -33,6 +46,8 @@ CoilInertialState Plus(const CoilInertialState& state, const CoilVector& d) {
   x.sensor.accel_matrix += d.segment<9>(Index::kSensorAccelMatrix).reshaped(3, 3);
   x.sensor.gyro_matrix += d.segment<9>(Index::kSensorGyroMatrix).reshaped(3, 3);
   x.sensor.gyro_delay_s += d[Index::kSensorGyroDelay];
+  x.gradient_earth_tesla_m += GradientOf(d.segment<5>(Index::kGradient));
+  x.emitter_mag_offset_tesla += d.segment<3>(Index::kEmitterMagOffset);
   return x;
 }
 
@@ -52,6 +67,9 @@ CoilVector Minus(const CoilInertialState& x, const CoilInertialState& y) {
       (x.sensor.accel_matrix - y.sensor.accel_matrix).reshaped();
   d.segment<9>(Index::kSensorGyroMatrix) = (x.sensor.gyro_matrix - y.sensor.gyro_matrix).reshaped();
   d[Index::kSensorGyroDelay] = x.sensor.gyro_delay_s - y.sensor.gyro_delay_s;
+  d.segment<5>(Index::kGradient) =
+      GradientElements(x.gradient_earth_tesla_m - y.gradient_earth_tesla_m);
+  d.segment<3>(Index::kEmitterMagOffset) = x.emitter_mag_offset_tesla - y.emitter_mag_offset_tesla;
   return d;
 }
 

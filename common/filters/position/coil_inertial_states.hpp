@@ -21,12 +21,14 @@ struct CoilInertialIndex {
   static constexpr int kSensorGyroBias = 15;
   static constexpr int kEmitterAccelBias = 18;
   static constexpr int kEmitterGyroBias = 21;
-  static constexpr int kBackground = 24;  ///< earth's and other steady field at the sensor, E
+  static constexpr int kBackground = 24;  ///< earth's and other steady field at the source, E
   static constexpr int kMixing = 12;
   static constexpr int kSensorAccelMatrix = 27;  ///< M_a
   static constexpr int kSensorGyroMatrix = 36;   ///< M_g
   static constexpr int kSensorGyroDelay = 45;    ///< t_g, one element
-  static constexpr int kAll = 46;
+  static constexpr int kGradient = 46;           ///< G of the background: xx, yy, xy, xz, yz
+  static constexpr int kEmitterMagOffset = 51;   ///< of the source's magnetometer, its axes
+  static constexpr int kAll = 54;
 };
 
 using CoilVector = Eigen::Matrix<double, CoilInertialIndex::kAll, 1>;
@@ -42,7 +44,15 @@ struct CoilInertialState {
   Eigen::Quaterniond q_earth_emitter = Eigen::Quaterniond::Identity();
   InertialErrors sensor;
   InertialErrors emitter;
-  Eigen::Vector3d background_earth_tesla = Eigen::Vector3d::Zero();
+  Eigen::Vector3d background_earth_tesla = Eigen::Vector3d::Zero();  ///< at the source
+  /// Of the background, symmetric and without trace as any field without currents is.
+  Eigen::Matrix3d gradient_earth_tesla_m = Eigen::Matrix3d::Zero();
+
+  /// m + G p: the background at the sensor.
+  [[nodiscard]] Eigen::Vector3d background_at_sensor_earth_tesla() const {
+    return background_earth_tesla + gradient_earth_tesla_m * p_earth_m;
+  }
+  Eigen::Vector3d emitter_mag_offset_tesla = Eigen::Vector3d::Zero();
 
   [[nodiscard]] Eigen::Vector3d p_emitter_sensor_m() const {
     return q_earth_emitter.conjugate() * p_earth_m;
@@ -59,6 +69,11 @@ struct CoilInertialState {
 
 /// X ⊟ Y: the error vector that takes Y to X.
 [[nodiscard]] CoilVector Minus(const CoilInertialState& x, const CoilInertialState& y);
+
+/// A gradient from its five elements (CoilInertialIndex::kGradient).
+[[nodiscard]] Eigen::Matrix3d GradientOf(const Eigen::Matrix<double, 5, 1>& elements);
+/// And these from it.
+[[nodiscard]] Eigen::Matrix<double, 5, 1> GradientElements(const Eigen::Matrix3d& gradient);
 
 /// Gives the three errors from `first` a variance of their own: no covariance with any other.
 void SetVariance(CoilCovariance& P, int first, const Eigen::Vector3d& sigma);

@@ -158,7 +158,8 @@ void CoilInertialFilter::Resume(const sensing::CoilFrame& frame, const CoilMotio
 }
 
 void CoilInertialFilter::EnterTracking(const sensing::CoilFrame& frame) {
-  state_.background_earth_tesla = collector_.background_earth_tesla();
+  state_.background_earth_tesla =
+      collector_.background_earth_tesla() - state_.gradient_earth_tesla_m * state_.p_earth_m;
   SetVariance(P_, Index::kBackground, config_.start_sigma_background_tesla);
   if (!ever_tracked_) {
     background_start_tesla_ = state_.background_earth_tesla;
@@ -262,6 +263,10 @@ void CoilInertialFilter::Lose(CoilUpdateReport& report) {
   const auto add = [this](int first, double sigma) {
     P_.diagonal().segment<3>(first).array() += sigma * sigma;
   };
+  if (config_.estimate_gradient) {
+    const double sigma = config_.start_sigma_gradient_tesla_m;
+    P_.diagonal().segment<5>(Index::kGradient).array() += sigma * sigma;
+  }
   add(Index::kSensorTheta, config_.start_sigma_tilt_rad);
   add(Index::kEmitterTheta, config_.start_sigma_tilt_rad);
   add(Index::kSensorAccelBias, config_.start_sigma_accel_bias_m_s2);

@@ -37,6 +37,7 @@ Result<LooseCoilFilter> LooseCoilFilter::Make(const CoilInertialConfig& given) {
   CoilInertialConfig config = given;
   config.estimate_calibration = false;
   config.estimate_gyro_delay = false;
+  config.estimate_gradient = false;
   const auto filter = CoilInertialFilter::Make(config);
   if (!filter) {
     return filter.error();

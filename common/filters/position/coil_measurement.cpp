@@ -20,6 +20,15 @@ sensing::FieldAndJacobian DrivenField(const sensing::CoilSource& source,
              : sensing::CoilField(source, drive.coil, drive.current_a, p_emitter_m);
 }
 
+// ∂(G p) by the five elements of G.
+Eigen::Matrix<double, 3, 5> ByGradient(const Eigen::Vector3d& p) {
+  Eigen::Matrix<double, 3, 5> A;
+  A << p.x(), 0.0, p.y(), p.z(), 0.0,  //
+      0.0, p.y(), p.x(), 0.0, p.z(),   //
+      -p.z(), -p.z(), 0.0, p.x(), p.y();
+  return A;
+}
+
 }  // namespace
 
 bool IsCurrentWrong(const sensing::CoilDrive& drive) {
@@ -34,7 +43,9 @@ CoilPrediction PredictCoilSample(const sensing::CoilSource& source, const sensin
                                  const CoilInertialState& state) {
   CoilPrediction prediction;
   const Eigen::Matrix3d R_SE = state.q_earth_sensor.toRotationMatrix().transpose();
-  Eigen::Vector3d field_E = state.background_earth_tesla;
+  Eigen::Vector3d field_E = state.background_at_sensor_earth_tesla();
+  prediction.H.middleCols<3>(Index::kP) = R_SE * state.gradient_earth_tesla_m;
+  prediction.H.middleCols<5>(Index::kGradient) = R_SE * ByGradient(state.p_earth_m);
   if (drive.coil >= 0) {
     const Eigen::Matrix3d R_EM = state.q_earth_emitter.toRotationMatrix();
     const sensing::FieldAndJacobian f =
@@ -43,7 +54,7 @@ CoilPrediction PredictCoilSample(const sensing::CoilSource& source, const sensin
     const Eigen::Matrix3d J = R_EM * f.jacobian_tesla_m * R_EM.transpose();
     field_E += b_E;
     prediction.coil_tesla = b_E.norm();
-    prediction.H.middleCols<3>(Index::kP) = R_SE * J;
+    prediction.H.middleCols<3>(Index::kP) += R_SE * J;
     prediction.H.middleCols<3>(Index::kEmitterTheta) =
         R_SE * (J * math::Skew(state.p_earth_m) - math::Skew(b_E));
   }
@@ -51,6 +62,16 @@ CoilPrediction PredictCoilSample(const sensing::CoilSource& source, const sensin
   prediction.H.middleCols<3>(Index::kSensorTheta) = R_SE * math::Skew(field_E);
   prediction.H.middleCols<3>(Index::kBackground) = R_SE;
   return prediction;
+}
+
+void PredictEmitterSample(const CoilInertialState& state, const Eigen::Vector3d& mag_tesla,
+                          MeasurementRecord<CoilInertialIndex::kAll, 3>& record) {
+  const Eigen::Matrix3d R_ME = state.q_earth_emitter.toRotationMatrix().transpose();
+  record.nu = mag_tesla - R_ME * state.background_earth_tesla - state.emitter_mag_offset_tesla;
+  record.H.setZero();
+  record.H.middleCols<3>(Index::kEmitterTheta) = R_ME * math::Skew(state.background_earth_tesla);
+  record.H.middleCols<3>(Index::kBackground) = R_ME;
+  record.H.middleCols<3>(Index::kEmitterMagOffset).setIdentity();
 }
 
 void GravityGauge(const CoilInertialState& state, const Eigen::Vector3d& accel_m_s2,

@@ -20,14 +20,23 @@ struct CoilPrediction {
 
 /// The measurement of every sample (design/position.md section 10):
 ///
-///   y = R_sᵀ (m_e + b) ,  b = i R_m B_c(R_mᵀ p) ,  J = i R_m J_c R_mᵀ
-///   H: p: R_sᵀ J ;  θ_s: R_sᵀ [m_e + b]× ;  θ_m: R_sᵀ (−[b]× + J [p]×) ;  m_e: R_sᵀ
+///   y = R_sᵀ (m_e + G p + b) ,  b = i R_m B_c(R_mᵀ p) ,  J = i R_m J_c R_mᵀ
+///   H: p: R_sᵀ (J + G) ;  θ_s: R_sᵀ [m_e + G p + b]× ;  θ_m: R_sᵀ (−[b]× + J [p]×) ;  m_e: R_sᵀ ;
+///   elements of G: R_sᵀ ∂(G p)
 ///
 /// With tones b is the sum over the coils of what flows in each at the instant of the sample;
 /// nothing is demodulated.
 [[nodiscard]] CoilPrediction PredictCoilSample(const sensing::CoilSource& source,
                                                const sensing::CoilDrive& drive,
                                                const CoilInertialState& state);
+
+/// The magnetometer of the source's own unit while none of its coils is on:
+///
+///   y = R_mᵀ m_e + o ,  H: θ_m: R_mᵀ [m_e]× ;  m_e: R_mᵀ ;  o: I
+///
+/// @param mag_tesla  as measured, emitter axes.
+void PredictEmitterSample(const CoilInertialState& state, const Eigen::Vector3d& mag_tesla,
+                          MeasurementRecord<CoilInertialIndex::kAll, 3>& record);
 
 /// The gauge: turning everything together cannot be observed. Residual and H of
 ///

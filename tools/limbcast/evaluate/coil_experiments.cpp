@@ -118,9 +118,13 @@ std::vector<CoilExperiment> MakeCoilExperiments(std::uint64_t seed) {
   }
   const double latero_at_rad = random.Uniform(0.0, 2.0 * std::numbers::pi);
 
-  // On the skin of the lower back; first thoracic vertebra; outside of the arm; above the knee.
-  const Eigen::Vector3d p_back_coils_m(-0.12, 0.0, 0.05);
-  const Eigen::Vector3d p_t8_sensor_m(-0.08, -0.05, 0.2);
+  // Source: on the skin of the lower back, where the sensor on the first thoracic vertebra is 45 cm
+  // above it, 6 cm forward and 5 cm to the right, as printed; 10 cm higher for the arm, so that its
+  // distance is between 38 and 50 cm, as printed, which from below it would not be on an average
+  // person. Sensors: first thoracic vertebra; outside of the arm; above the knee.
+  const Eigen::Vector3d p_back_coils_m(-0.12, 0.0, 0.0);
+  const Eigen::Vector3d p_arm_coils_m(-0.12, 0.0, 0.1);
+  const Eigen::Vector3d p_t8_sensor_m(-0.08, -0.05, 0.22);
   const Eigen::Vector3d p_arm_sensor_m(-0.04, -0.02, -0.06);
   const Eigen::Vector3d p_leg_sensor_m(0.04, -0.06, -0.34);
   constexpr auto kT8 = body::Segment::kT8;
@@ -136,10 +140,11 @@ std::vector<CoilExperiment> MakeCoilExperiments(std::uint64_t seed) {
                        const Eigen::Vector3d& place_m, const Eigen::Vector3d& half_space,
                        std::array<double, 4> published) {
     const bool is_walk = std::string(name).find("walking") != std::string::npos;
-    experiments.push_back({name, person.At(segment, place_m),
-                           person.At(body::Segment::kL5, p_back_coils_m), true, half_space, 45.0,
-                           is_walk ? 0.3e-6 : 0.1e-6, published[0], published[1], published[2],
-                           published[3]});
+    experiments.push_back(
+        {name, person.At(segment, place_m),
+         person.At(body::Segment::kL5, segment == kArm ? p_arm_coils_m : p_back_coils_m), true,
+         half_space, 45.0, is_walk ? 0.3e-6 : 0.1e-6, published[0], published[1], published[2],
+         published[3]});
   };
   const Body walking = Walking();
   add("back flexion", Gesturing(GestureKind::kBow, 5.0), kT8, p_t8_sensor_m, up,

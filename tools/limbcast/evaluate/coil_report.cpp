@@ -23,6 +23,15 @@ const char* TextOf(CoilNoise noise) {
                                      : "15 nT, bipolar pulses of 17 + 17 ms, 3 in 600 ms";
 }
 
+std::string SpreadOf(const CoilResult& r) {
+  const auto mm = [&](CoilMethod method) {
+    return kMmPerM * r.deviations[static_cast<std::size_t>(method)].position_m;
+  };
+  return r.repetitions < 2 ? fmt::format("{:>3} {:^11}", r.repetitions, "-")
+                           : fmt::format("{:>3} {:>5.1f} {:>5.1f}", r.repetitions,
+                                         mm(CoilMethod::kForward), mm(CoilMethod::kSmoothed));
+}
+
 nlohmann::json TrackingJson(const CoilTracking& t) {
   return {{"tracked", t.tracked}, {"losses", t.losses}, {"nees_per_axis", t.nees}};
 }
@@ -41,9 +50,10 @@ std::string CoilTable(std::span<const CoilExperiment> experiments,
   for (const CoilNoise noise : {CoilNoise::kThesis, CoilNoise::kModern}) {
     text += fmt::format(
         "\n{}; RMS: position in 3-D and distance, mm; orientation, deg\n{:<20} {:>5} | {:^20} | "
-        "{:^20} | {:^20} | {:^20} | {:^20} | {:^11} {:^10} | {:>5} {:>6} {:>5} | {:^18}\n",
+        "{:^20} | {:^20} | {:^20} | {:^20} | {:^11} {:^10} | {:>5} {:>6} {:>5} | {:^18} | {:^15}\n",
         TextOf(noise), "experiment", "range", "magnetic only", "loose", "forward", "lag 0.6 s",
-        "smoothed", "publ. magn.", "publ. fused", "valid", "losses", "NEES", "the same, loose");
+        "smoothed", "publ. magn.", "publ. fused", "valid", "losses", "NEES", "the same, loose",
+        "n, SD fwd, sm.");
     for (const CoilResult& r : results) {
       const CoilExperiment* e = ExperimentOf(experiments, r.experiment);
       if (r.noise != noise) {
@@ -61,7 +71,7 @@ std::string CoilTable(std::span<const CoilExperiment> experiments,
       for (const CoilTracking& t : {r.forward, r.loose}) {
         text += fmt::format(" | {:>4.0f}% {:>6} {:>5.1f}", 100.0 * t.tracked, t.losses, t.nees);
       }
-      text += "\n";
+      text += fmt::format(" | {}\n", SpreadOf(r));
     }
   }
   return text;
@@ -92,8 +102,12 @@ nlohmann::json CoilJson(std::span<const CoilExperiment> experiments,
     trial["experiment"] = r.experiment;
     trial["noise"] = TextOf(r.noise);
     trial["mean_range_m"] = r.mean_range_m;
+    trial["repetitions"] = r.repetitions;
     for (std::size_t i = 0; i < kCoilMethodCount; ++i) {
       trial[kCoilMethodNames[i]] = FigureJson(r.figures[i]);
+      if (r.repetitions > 1) {
+        trial[kCoilMethodNames[i]]["standard_deviation"] = FigureJson(r.deviations[i]);
+      }
     }
     trial[kCoilMethodNames[static_cast<std::size_t>(CoilMethod::kLoose)]].update(
         TrackingJson(r.loose));

@@ -12,7 +12,8 @@ namespace limbcast::tool {
 
 /// Tables for a terminal: a row for each experiment; of each method the 3-D position error and the
 /// distance error in mm and the orientation error in degrees (RMS), beside what was published of an
-/// experiment of the same name.
+/// experiment of the same name; last the number of repetitions, and the standard deviation of 3-D
+/// position between them, forward and smoothed.
 [[nodiscard]] std::string CoilTable(std::span<const CoilExperiment> experiments,
                                     std::span<const CoilResult> results);
 /// Position and distance in metres, orientation in radians.

@@ -17,6 +17,7 @@ namespace {
 using simulation::CoilTick;
 
 constexpr double kLag_s = 0.6;
+constexpr double kGradient_tesla_m = 0.3e-6;  // of a room, each element
 
 std::size_t TickAt(const CoilTrial& trial, Time at) {
   const double k = ToSeconds(at - trial.ticks.front().frame.measured_at) * trial.rate_hz;
@@ -120,7 +121,7 @@ simulation::CoilPulseConfig PulsesOf(CoilNoise noise) {
 Eigen::Matrix3d DrawGradient_tesla_m(simulation::Random& random) {
   Eigen::Matrix3d G = Eigen::Matrix3d::Zero();
   for (Eigen::Index i = 0; i < 3; ++i) {
-    G.row(i) = 0.3e-6 * random.Gaussian3().transpose();
+    G.row(i) = kGradient_tesla_m * random.Gaussian3().transpose();
   }
   G = (0.5 * (G + G.transpose())).eval();
   return G - G.trace() / 3.0 * Eigen::Matrix3d::Identity();
@@ -148,12 +149,18 @@ filters::CoilInertialConfig MakeCoilFilter(const CoilExperiment& experiment, Coi
   config.sigma_mag_tesla = SigmaOf_tesla(noise);
   config.half_space = experiment.half_space;
   config.walk_background_tesla_rts = experiment.walk_background_tesla_rts;
-  // The inertial units of CoilSensorErrors; scale and misalignment are 0.2 % each at most.
+  config.start_sigma_gradient_tesla_m = kGradient_tesla_m;
+  config.mag_calibration_error = 1e-3;
+  // The inertial units of CoilSensorErrors, with something in reserve; scale and misalignment are
+  // 0.2 % each.
   config.start_sigma_accel_matrix = 1.2e-3;
   config.start_sigma_gyro_matrix = 1.2e-3;
-  config.inertial.sigma_accel_m_s2_rthz = 3e-3;
-  config.inertial.sigma_gyro_rad_s_rthz = 1e-3;
-  config.inertial.k_accel = 4e-3;
+  config.inertial.sigma_accel_m_s2_rthz = 2.5e-3;
+  config.inertial.sigma_gyro_rad_s_rthz = 9e-4;
+  config.inertial.walk_accel_bias_m_s3_rthz = 3e-4;
+  config.inertial.walk_gyro_bias_rad_s2_rthz = 5e-5;
+  config.inertial.k_accel = 3e-3;
+  config.inertial.k_rate = 2e-3;
   config.relative_field_error = 3e-3;
   return config;
 }
@@ -217,9 +224,10 @@ CoilLiveFigures EvaluateLive(
   return live;
 }
 
-CoilResult EvaluateTrial(const CoilTrial& trial) {
+CoilFollowed FollowTrial(const CoilTrial& trial) {
   filters::CoilIntervalSmoother smoother;
-  const CoilLiveFigures live = EvaluateLive(
+  CoilFollowed followed;
+  followed.live = EvaluateLive(
       trial, [&](const filters::CoilInertialFilter& filter, Time at) { smoother.Add(filter, at); });
   const auto smoothed = smoother.Smooth();
   CoilScore smoothed_score;
@@ -229,6 +237,13 @@ CoilResult EvaluateTrial(const CoilTrial& trial) {
                          trial.ticks[k]);
     }
   }
+  followed.smoothed = smoothed_score.Figure();
+  return followed;
+}
+
+CoilResult EvaluateTrial(const CoilTrial& trial) {
+  const CoilFollowed followed = FollowTrial(trial);
+  const CoilLiveFigures& live = followed.live;
   CoilResult result;
   result.experiment = trial.name;
   result.noise = trial.noise;
@@ -241,7 +256,7 @@ CoilResult EvaluateTrial(const CoilTrial& trial) {
   figure(CoilMethod::kLoose) = Loose(trial, result.loose);
   figure(CoilMethod::kForward) = live.forward;
   figure(CoilMethod::kFixedLag) = live.lagged;
-  figure(CoilMethod::kSmoothed) = smoothed_score.Figure();
+  figure(CoilMethod::kSmoothed) = followed.smoothed;
   return result;
 }
 

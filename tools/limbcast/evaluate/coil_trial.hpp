@@ -40,6 +40,8 @@ struct CoilResult {
   std::string experiment;
   CoilNoise noise = CoilNoise::kThesis;
   std::array<CoilFigure, kCoilMethodCount> figures;
+  int repetitions = 1;  ///< of which the figures are means (coil_repetitions.hpp)
+  std::array<CoilFigure, kCoilMethodCount> deviations{};  ///< between them; without counts
   double mean_range_m = 0.0;
   CoilTracking forward;  ///< of the tightly coupled filter, which lag and smoothing stand on
   CoilTracking loose;
@@ -75,6 +77,13 @@ struct CoilLiveFigures {
 [[nodiscard]] CoilLiveFigures EvaluateLive(
     const CoilTrial& trial,
     const std::function<void(const filters::CoilInertialFilter&, Time)>& on_update = {});
+
+/// The same, and the whole recording smoothed.
+struct CoilFollowed {
+  CoilLiveFigures live;
+  CoilFigure smoothed;
+};
+[[nodiscard]] CoilFollowed FollowTrial(const CoilTrial& trial);
 
 /// Lets all methods run. Magnetic only: least squares on each three pulses, columns turned by gyro,
 /// no inertial displacement, compared in the middle of the second pulse. Loose: the same poses,

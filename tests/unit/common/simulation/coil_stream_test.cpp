@@ -49,6 +49,37 @@ TEST(CoilStreamTest, ThePulseIsTheFieldOfTheCoilAboveTheBackground) {
   EXPECT_GT(on, 20);
 }
 
+TEST(CoilStreamTest, TheSourcesOwnMagnetometerFeelsTheRoomBetweenPulsesAndItsCoilsInThem) {
+  CoilStreamConfig config = StillScene();
+  config.gradient_tesla_m.diagonal() = Eigen::Vector3d(1e-6, 2e-6, -3e-6);
+  config.errors.mag.range = 150e-6;
+  const auto ticks = SimulateCoil(config, 2.0, 1);
+  const RigidMotion emitter = config.emitter(0.0);
+  // The gradient counts from where the sensor began: 0.1, 0.2 and 0.3 m away.
+  const Eigen::Vector3d here_E =
+      config.world.At(emitter.p_earth_local_m) +
+      config.gradient_tesla_m * Eigen::Vector3d(-0.1, -0.2, -0.3).array().sin().matrix();
+  const Eigen::Vector3d expected = emitter.R_earth_local.transpose() * here_E;
+  int quiet = 0;
+  int clipped = 0;
+  Time on_at = ticks.front().frame.measured_at;
+  for (const CoilTick& tick : ticks) {
+    EXPECT_TRUE(tick.frame.emitter_mag_valid || tick.frame.drive.coil >= 0 ||
+                !tick.frame.drive.settled);
+    if (tick.frame.drive.coil >= 0 || !tick.frame.drive.settled) {
+      on_at = tick.frame.measured_at;
+      clipped += tick.frame.emitter_mag_valid ? 0 : 1;
+    } else if (ToSeconds(tick.frame.measured_at - on_at) > 0.015) {
+      ++quiet;
+      EXPECT_LT((tick.frame.emitter_mag_tesla - expected).norm(), 5e-9);
+    }
+  }
+  EXPECT_GT(quiet, 50);
+  EXPECT_GT(clipped, 20) << "a coil of 75 ampere turns around it is 0.9 mT";
+  config.emitter_magnetometer = false;
+  EXPECT_FALSE(SimulateCoil(config, 0.1, 1).front().frame.emitter_mag_valid);
+}
+
 TEST(CoilStreamTest, TonesAreTheFieldOfAllCoilsAboveTheBackground) {
   CoilStreamConfig config = StillScene();
   config.tones = sensing::CoilTones{};

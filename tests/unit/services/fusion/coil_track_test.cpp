@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "tests/support/position_run.hpp"
 
 namespace limbcast::fusion {
@@ -59,6 +62,47 @@ TEST(CoilTrackTest, ItTurnsWithTheOrientationOfTheSource) {
   for (const auto& [key, figure] : straight) {
     EXPECT_NEAR(turned.at(key).rms_m, figure.rms_m, 1e-5) << body::ToString(key.second);
   }
+}
+
+// The source's magnetometer helps where the flags say that nothing is on, and nowhere else.
+TEST(CoilTrackTest, TheSourcesCompassIsHeardBetweenPulses) {
+  const gateway::SimulatorConfig people = CoilPeople();
+  auto simulator = gateway::SimulatorDriver::Make(people);
+  ASSERT_TRUE(simulator);
+  const auto driver = gateway::WithCoilPulses(std::move(*simulator));
+  CoilTrack as_is(CoilAid().coils);
+  CoilTrack spoilt_in_pulses(CoilAid().coils);
+  CoilTrack without(CoilAid().coils);
+  const auto variance = [](CoilTrack& track, const sensing::MargSample& sample,
+                           const sensing::MargSample& source) {
+    const auto position = track.Update(sample, source, Eigen::Quaterniond::Identity());
+    return position ? position->cov_position_m2.trace() : 0.0;
+  };
+  gateway::Batch batch;
+  double sum = 0.0;
+  double sum_without = 0.0;
+  for (int tick = 0; tick < static_cast<int>(20.0 * people.rate_hz); ++tick) {
+    ASSERT_TRUE(driver->Next(batch));
+    const auto of = [&](Segment segment) {
+      const auto truth =
+          std::find_if(batch.truth.begin(), batch.truth.end(),
+                       [&](const body::SegmentTruth& one) { return one.segment == segment; });
+      return batch.marg[static_cast<std::size_t>(truth - batch.truth.begin())];
+    };
+    const sensing::MargSample sample = of(Segment::kRightLowerLeg);
+    sensing::MargSample source = of(Segment::kPelvis);
+    const double usual = variance(as_is, sample, source);
+    sum += usual;
+    if ((source.flags & sensing::kCoilPulseActive) != 0) {
+      source.mag_tesla = {3e-5F, -1e-5F, 2e-5F};
+      source.flags &= ~static_cast<std::uint32_t>(sensing::kMagSaturated);
+    }
+    ASSERT_EQ(variance(spoilt_in_pulses, sample, source), usual);
+    source.flags |= sensing::kMagMissing;
+    sum_without += variance(without, sample, source);
+  }
+  ASSERT_GT(sum, 0.0);
+  EXPECT_LT(sum, 0.95 * sum_without);
 }
 
 TEST(CoilTrackTest, SamplesOfTheSourceThatAreFarInTimeAreNotUsed) {

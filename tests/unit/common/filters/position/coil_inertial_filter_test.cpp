@@ -96,8 +96,9 @@ Eigen::Matrix3d SkewedGain() {
 }
 
 TEST(CoilInertialFilterTest, LearnsTheMatrixOfTheGyro) {
-  const Ticks ticks =
-      WithGyroErrors(SwingingSensor(false, simulation::ThesisPulses(), 60.0, 9), SkewedGain(), 0.0);
+  simulation::CoilStreamConfig stream = SwingStream(false, simulation::ThesisPulses());
+  stream.errors.gyro.scale = stream.errors.gyro.misalignment = 0.0;  // SkewedGain() is all it has
+  const Ticks ticks = WithGyroErrors(simulation::SimulateCoil(stream, 60.0, 9), SkewedGain(), 0.0);
   CoilInertialConfig config = SwingConfig();
   CoilInertialFilter filter = MakeFilter(config);
   const Outcome with = Play(filter, ticks, 30.0);
@@ -135,6 +136,7 @@ TEST(CoilInertialFilterTest, WhatIsNotToBeEstimatedStays) {
   CoilInertialConfig config = SwingConfig();
   config.estimate_calibration = false;
   config.estimate_gyro_delay = false;
+  config.estimate_gradient = false;
   CoilInertialFilter filter = MakeFilter(config);
   for (std::size_t k = 0; k < ticks.size(); ++k) {
     if (k == 900) {
@@ -148,6 +150,8 @@ TEST(CoilInertialFilterTest, WhatIsNotToBeEstimatedStays) {
   EXPECT_EQ(filter.state().sensor.gyro_matrix, Eigen::Matrix3d::Zero());
   EXPECT_EQ(filter.state().sensor.accel_matrix, Eigen::Matrix3d::Zero());
   EXPECT_EQ(filter.state().sensor.gyro_delay_s, 0.0);
+  EXPECT_EQ(filter.state().gradient_earth_tesla_m, Eigen::Matrix3d::Zero());
+  EXPECT_EQ(filter.state().emitter_mag_offset_tesla, Eigen::Vector3d::Zero());
   constexpr int kRest = Index::kAll - Index::kSensorAccelMatrix;
   EXPECT_TRUE(filter.covariance().rightCols<kRest>().isZero(0.0));
 }

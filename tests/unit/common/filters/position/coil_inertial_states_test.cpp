@@ -25,6 +25,19 @@ TEST(CoilInertialStatesTest, MatricesAreTakenByColumns) {
   EXPECT_EQ(state.sensor.accel_matrix(0, 1), 0.02);
 }
 
+TEST(CoilInertialStatesTest, AGradientIsSymmetricWithoutTraceAndItsElementsGiveItBack) {
+  const Eigen::Matrix<double, 5, 1> elements(1.0, -2.0, 3.0, 4.0, 5.0);
+  const Eigen::Matrix3d G = GradientOf(elements);
+  EXPECT_EQ(G, G.transpose());
+  EXPECT_EQ(G.trace(), 0.0);
+  EXPECT_EQ(GradientElements(G), elements);
+  CoilInertialState state;
+  state.p_earth_m = {0.0, 0.5, 0.0};
+  state.background_earth_tesla = {1.0, 2.0, 3.0};
+  state.gradient_earth_tesla_m = G;
+  EXPECT_EQ(state.background_at_sensor_earth_tesla(), Eigen::Vector3d(2.5, 1.0, 5.5));
+}
+
 TEST(CoilInertialStatesTest, AVarianceOfItsOwnLeavesNoCovariance) {
   CoilCovariance P = CoilCovariance::Ones();
   SetMatrixVariance(P, CoilInertialIndex::kSensorGyroMatrix, 0.1);

@@ -17,6 +17,8 @@ CoilInertialState SomeState() {
   state.q_earth_sensor = math::ExpSO3({0.3, -0.8, 1.4});
   state.q_earth_emitter = math::ExpSO3({-0.5, 0.2, 0.9});
   state.background_earth_tesla = {1e-6, 19e-6, -45e-6};
+  state.gradient_earth_tesla_m = GradientOf({2e-6, -5e-6, 1e-6, 3e-6, -4e-6});
+  state.emitter_mag_offset_tesla = {1e-7, -2e-7, 3e-7};
   state.emitter.accel_bias_m_s2 = {0.02, -0.03, 0.01};
   return state;
 }
@@ -50,7 +52,26 @@ TEST(CoilMeasurementTest, TurningEverythingTogetherChangesNothing) {
   error.segment<3>(Index::kSensorTheta) = turn;
   error.segment<3>(Index::kEmitterTheta) = turn;
   error.segment<3>(Index::kBackground) = turn.cross(state.background_earth_tesla);
+  const Eigen::Matrix3d& G = state.gradient_earth_tesla_m;
+  error.segment<5>(Index::kGradient) =
+      GradientElements(math::Skew(turn) * G - G * math::Skew(turn));
   EXPECT_LT((at.H * error).norm(), 1e-18);
+}
+
+TEST(CoilMeasurementTest, TheSourcesOwnMagnetometerFeelsTheFieldWhereItIs) {
+  const CoilInertialState state = SomeState();
+  MeasurementRecord<Index::kAll, 3> at;
+  const Eigen::Vector3d field_M = state.q_earth_emitter.conjugate() * state.background_earth_tesla;
+  PredictEmitterSample(state, field_M + state.emitter_mag_offset_tesla, at);
+  EXPECT_LT(at.nu.norm(), 1e-18);
+  MeasurementRecord<Index::kAll, 3> moved;
+  for (int i = 0; i < Index::kAll; ++i) {
+    const double h = i >= Index::kBackground ? 1e-9 : 1e-6;
+    PredictEmitterSample(Plus(state, h * CoilVector::Unit(i)), field_M, moved);
+    PredictEmitterSample(state, field_M, at);
+    EXPECT_LT((at.H.col(i) + (moved.nu - at.nu) / h).norm(), 1e-6 * at.H.col(i).norm() + 1e-10)
+        << i;
+  }
 }
 
 TEST(CoilMeasurementTest, GaugesMatchDifferences) {
