@@ -70,7 +70,8 @@ void SessionMember::Tick() {
                           .session = session_,
                           .person = member.as.person,
                           .role = member.as.role,
-                          .sensors = member.as.sensors});
+                          .sensors = member.as.sensors,
+                          .wants_coil_slot = member.as.wants_coil_slot});
     }
   }
   for (const roster::JoinRequest& request : requests) {

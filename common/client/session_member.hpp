@@ -22,6 +22,7 @@ struct Membership {
   roster::Role role = roster::Role::kSpectator;
   std::string person;                             ///< 1 to 64 bytes
   std::vector<roster::SensorAssignment> sensors;  ///< a performer's; none = as when last here
+  bool wants_coil_slot = false;                   ///< a performer's, who wears a source of coils
 };
 
 enum class MemberState : std::uint8_t {

@@ -25,7 +25,12 @@ struct RosterEntry {
   std::string session;                    ///< at most 64 characters
   std::string person;                     ///< at most 64 characters
   std::vector<SensorAssignment> sensors;  ///< at most 64
-  std::uint32_t coil_slot = 0;            ///< 0 = none granted
+  /// When a source of coils that this person wears may pulse: frames of `coil_frame_us` begin at
+  /// whole multiples of that on the system clock, each has `coil_slots` slots of equal length, and
+  /// `coil_slot` of them, counted from 1, is this person's (0 = none granted).
+  std::uint32_t coil_slot = 0;
+  std::uint32_t coil_slots = 0;
+  std::uint32_t coil_frame_us = 0;
   bool operator==(const RosterEntry&) const = default;
 };
 

@@ -39,6 +39,7 @@ struct JoinRequest {
   Role role = Role::kSpectator;
   /// What a performer wears; none = as when this person was here last. At most 64.
   std::vector<SensorAssignment> sensors;
+  bool wants_coil_slot = false;  ///< a performer's, who wears a source of coils
 };
 
 /// The answer to a JoinRequest (command topic, key client_uid). A repeated request that changes

@@ -7,6 +7,15 @@
 #include "common/sensing/coil_field.hpp"
 
 namespace limbcast::sensing {
+namespace {
+
+// Since the last slot of the grant began; below one frame, also before 1970.
+Duration SinceSlot(const CoilGrant& grant, Time at) {
+  const Duration since = (at.time_since_epoch() - grant.slot * grant.slot_length()) % grant.frame;
+  return since < Duration{} ? since + grant.frame : since;
+}
+
+}  // namespace
 
 Status Validate(const CoilSlotConfig& c) {
   return CheckRanges("coil slots: ", {{"pulse_s", c.pulse_s, 1e-3, 1.0},
@@ -38,6 +47,15 @@ CoilSlotPlan PlanCoilSlots(const CoilSlotConfig& c) {
 double ForeignField_tesla(double moment_a_m2, double distance_m) {
   return std::numbers::sqrt2 * kMu0_t_m_a * moment_a_m2 /
          (4.0 * std::numbers::pi * std::pow(distance_m, 3));
+}
+
+bool IsInSlot(const CoilGrant& grant, Time at) {
+  return SinceSlot(grant, at) < grant.slot_length();
+}
+
+Time NextSlotBegin(const CoilGrant& grant, Time at) {
+  const Duration since = SinceSlot(grant, at);
+  return since == Duration{} ? at : at + (grant.frame - since);
 }
 
 }  // namespace limbcast::sensing

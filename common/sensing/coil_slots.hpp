@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+
 #include "common/base/result.hpp"
+#include "common/base/time.hpp"
 
 namespace limbcast::sensing {
 
@@ -35,5 +38,21 @@ struct CoilSlotPlan {
 /// Field of another source, rms over directions and the three coils:
 ///   B = √2 μ₀ m / (4π D³)
 [[nodiscard]] double ForeignField_tesla(double moment_a_m2, double distance_m);
+
+/// When one source may pulse: frames begin at whole multiples of `frame` on the system clock, each
+/// has `slots` slots of equal length, and one of them is its own.
+struct CoilGrant {
+  std::uint32_t slot = 0;   ///< from 0, below slots
+  std::uint32_t slots = 1;  ///< at least 1
+  Duration frame = std::chrono::milliseconds(200);
+  bool operator==(const CoilGrant&) const = default;
+
+  [[nodiscard]] Duration slot_length() const { return frame / slots; }
+};
+
+/// `at` lies in the grant's slot of some frame.
+[[nodiscard]] bool IsInSlot(const CoilGrant& grant, Time at);
+/// When the grant's slot begins next, at `at` or later.
+[[nodiscard]] Time NextSlotBegin(const CoilGrant& grant, Time at);
 
 }  // namespace limbcast::sensing

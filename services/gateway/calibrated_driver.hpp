@@ -22,6 +22,9 @@ class CalibratedDriver final : public Driver {
 
   [[nodiscard]] const DriverDescription& Describe() const override { return description_; }
   [[nodiscard]] Result<DriverStep> Next(Batch& batch) override;
+  [[nodiscard]] Status FollowSlots(const CoilSchedule& schedule) override {
+    return driver_->FollowSlots(schedule);
+  }
   [[nodiscard]] Status Rewind() override { return driver_->Rewind(); }
   void Interrupt() override { driver_->Interrupt(); }
 

@@ -30,6 +30,7 @@ void CoilPulseDriver::Forget() {
   for (const CoilSourceInfo& info : description.coil_sources) {
     sources_.emplace_back().info = info;
   }
+  TakeSlots();
   for (const roster::RosterEntry& body : description.bodies) {
     const auto own = std::find_if(sources_.begin(), sources_.end(), [&](const Source& source) {
       return source.info.body_id == body.body_id;
@@ -47,6 +48,27 @@ void CoilPulseDriver::Forget() {
       }
     }
   }
+}
+
+void CoilPulseDriver::TakeSlots() {
+  for (Source& source : sources_) {
+    if (const auto grant = schedule_.Of(source.info.body_id)) {
+      source.info.slot = grant->slot;
+    }
+  }
+}
+
+Status CoilPulseDriver::FollowSlots(const CoilSchedule& schedule) {
+  schedule_ = schedule;
+  TakeSlots();
+  return driver_->FollowSlots(schedule);
+}
+
+bool CoilPulseDriver::IsForeign(Time tick_at) const {
+  return std::any_of(schedule_.foreign.begin(), schedule_.foreign.end(),
+                     [&](const sensing::CoilGrant& grant) {
+                       return sensing::IsInSlot(grant, tick_at + schedule_.to_host);
+                     });
 }
 
 Status CoilPulseDriver::Rewind() {
@@ -80,10 +102,12 @@ void CoilPulseDriver::TakeDrives(const Batch& batch) {
       source.drive.settled = false;
     }
   }
+  const bool foreign = IsForeign(batch.tick_at);
   for (Source& source : sources_) {
-    const bool disturbed = std::any_of(sources_.begin(), sources_.end(), [&](const Source& other) {
-      return other.active && other.info.slot != source.info.slot;
-    });
+    const bool disturbed =
+        foreign || std::any_of(sources_.begin(), sources_.end(), [&](const Source& other) {
+          return other.active && other.info.slot != source.info.slot;
+        });
     source.drive.settled = source.drive.settled && !disturbed;
   }
 }
@@ -148,8 +172,9 @@ Result<DriverStep> CoilPulseDriver::Next(Batch& batch) {
     return step;
   }
   TakeDrives(batch);
-  const bool any = std::any_of(sources_.begin(), sources_.end(),
-                               [](const Source& source) { return source.active; });
+  const bool any =
+      IsForeign(batch.tick_at) || std::any_of(sources_.begin(), sources_.end(),
+                                              [](const Source& source) { return source.active; });
   for (sensing::MargSample& sample : batch.marg) {
     const auto found = sensors_.find(sample.sensor_uid);
     if (found == sensors_.end() || !found->second.source) {

@@ -19,6 +19,9 @@ namespace limbcast::gateway {
 /// measures with it. Readings that mean nothing (settling after an edge, another source's slot, a
 /// current that was not measured or is more than 5 % off) are kCoilPulseActive without a coil.
 ///
+/// Slots that the roster grants to sources of other gateways are masked whole, whether or not those
+/// pulse in them.
+///
 /// Each completed pulse becomes one CoilBurst with that one pulse in it: earth field removed with
 /// the attitude that the gyroscope integrates, in sensor axes of the pulse's middle. A pulse that
 /// does not stand out of the noise by 3 σ is there and not valid.
@@ -34,6 +37,7 @@ class CoilPulseDriver final : public Driver {
 
   [[nodiscard]] const DriverDescription& Describe() const override { return driver_->Describe(); }
   [[nodiscard]] Result<DriverStep> Next(Batch& batch) override;
+  [[nodiscard]] Status FollowSlots(const CoilSchedule& schedule) override;
   [[nodiscard]] Status Rewind() override;
   void Interrupt() override { driver_->Interrupt(); }
 
@@ -56,10 +60,13 @@ class CoilPulseDriver final : public Driver {
 
   void Forget();
   void TakeDrives(const Batch& batch);
+  void TakeSlots();
+  [[nodiscard]] bool IsForeign(Time tick_at) const;
   void Extract(Sensor& sensor, const sensing::MargSample& sample, std::vector<sensing::CoilBurst>&);
   static void Turn(Sensor& sensor, const sensing::MargSample& sample);
 
   std::unique_ptr<Driver> driver_;
+  CoilSchedule schedule_;
   std::vector<Source> sources_;
   std::unordered_map<SensorUid, Sensor> sensors_;
 };

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "common/roster/roster.hpp"
 #include "common/sensing/coil_burst.hpp"
 #include "common/sensing/coil_frame.hpp"
+#include "common/sensing/coil_slots.hpp"
 #include "common/sensing/fused_orientation.hpp"
 #include "common/sensing/marg_sample.hpp"
 #include "common/sensing/position_samples.hpp"
@@ -99,6 +102,24 @@ struct Batch {
   }
 };
 
+/// Who may pulse when, as the roster of the session has it.
+struct CoilSchedule {
+  struct Own {
+    BodyId body_id;
+    std::optional<sensing::CoilGrant> grant;  ///< none: this source does not pulse
+  };
+  std::vector<Own> own;
+  std::vector<sensing::CoilGrant> foreign;  ///< of sources of other gateways
+  Duration to_host{};  ///< host time minus the driver's; zero for DriverTime::kHost
+
+  /// What one of its own people is granted; nothing for others.
+  [[nodiscard]] std::optional<sensing::CoilGrant> Of(BodyId body) const {
+    const auto found =
+        std::find_if(own.begin(), own.end(), [&](const Own& one) { return one.body_id == body; });
+    return found == own.end() ? std::nullopt : found->grant;
+  }
+};
+
 enum class DriverStep : std::uint8_t {
   kData,     ///< the batch holds a tick
   kWaiting,  ///< nothing yet (live devices, at most 100 ms after the call); call again
@@ -118,6 +139,14 @@ class Driver {
   /// gateway reports it in `health`, and ends (recordings) or calls Next again after a pause
   /// (devices).
   [[nodiscard]] virtual Result<DriverStep> Next(Batch& batch) = 0;
+
+  /// From the next tick on sources of coils keep to this schedule; without one they pulse as the
+  /// driver is configured. Called between ticks when anything in it has changed. Fails where pulses
+  /// do not fit into their slots: the sources concerned then do not pulse.
+  [[nodiscard]] virtual Status FollowSlots(const CoilSchedule& schedule) {
+    static_cast<void>(schedule);
+    return Ok();
+  }
 
   /// Goes back to the first tick; batches then start again at the same `tick_at`. kUnsupported
   /// where that makes no sense (devices; a simulator that never ends).

@@ -57,6 +57,17 @@ Status GatewayService::Start() {
 }
 
 Status GatewayService::MakeReaders() {
+  if (!source_.description().coil_sources.empty()) {
+    std::vector<BodyId> own;
+    for (const roster::RosterEntry& body : source_.description().bodies) {
+      own.push_back(body.body_id);
+    }
+    auto grants = CoilGrants::Make(bus_, std::move(own));
+    if (!grants) {
+      return grants.error();
+    }
+    grants_ = std::move(*grants);
+  }
   if (FlowControl::NeedsStates(config_)) {
     auto reader = bus::SegmentStateReader::Make(
         bus_, [this](std::span<const body::SegmentState> states, const bus::SampleInfo&) {
@@ -99,6 +110,7 @@ void GatewayService::Stop() {
   stopped_ = true;
   state_reader_.reset();
   skeleton_reader_.reset();
+  grants_.reset();
   publisher_->Withdraw(source_.description());
   const std::scoped_lock lock(mutex_);
   if (phase_ != Phase::kEnded) {
@@ -225,7 +237,14 @@ std::optional<Time> GatewayService::LoadTick(Time now) {
     return retry_at_;
   }
   // Later than every probe, or the first samples would count as old.
-  const Result<DriverStep> step = source_.Load(std::max(now, last_probe_at_ + 1ms));
+  const Time start_at = std::max(now, last_probe_at_ + 1ms);
+  if (grants_ != nullptr) {
+    if (const Status fits = source_.FollowSlots(grants_->schedule(), start_at); !fits) {
+      spdlog::warn("{}", fits.error().message);
+      SetLastError(fits.error().message);
+    }
+  }
+  const Result<DriverStep> step = source_.Load(start_at);
   if (step) {
     if (*step == DriverStep::kEnd) {
       EndOfData(now);

@@ -17,6 +17,7 @@
 #include "common/bus/segment_state_reader.hpp"
 #include "common/runtime/latency_histogram.hpp"
 #include "common/runtime/worker_pool.hpp"
+#include "services/gateway/coil_grants.hpp"
 #include "services/gateway/driver.hpp"
 #include "services/gateway/flow_control.hpp"
 #include "services/gateway/gateway_config.hpp"
@@ -103,8 +104,9 @@ class GatewayService {
   GatewaySummary summary_;
   std::optional<Error> failure_;
 
-  runtime::LatencyHistogram lag_;    // from due to sent
-  runtime::LatencyHistogram burst_;  // from the first to the last write of a tick
+  runtime::LatencyHistogram lag_;       // from due to sent
+  runtime::LatencyHistogram burst_;     // from the first to the last write of a tick
+  std::unique_ptr<CoilGrants> grants_;  // null: nobody wears coils
   std::unique_ptr<bus::SegmentStateReader> state_reader_;
   std::unique_ptr<bus::Reader<body::Skeleton>> skeleton_reader_;
 };

@@ -31,7 +31,8 @@ Result<std::unique_ptr<GatewaySession>> GatewaySession::Make(bus::Bus& bus,
     session->people_.push_back(body.person);
     as.push_back({.role = roster::Role::kPerformer,
                   .person = std::move(body.person),
-                  .sensors = std::move(body.sensors)});
+                  .sensors = std::move(body.sensors),
+                  .wants_coil_slot = body.coil_slot != 0});
   }
   session->session_ = config.session;
   auto member = client::SessionMember::Make(

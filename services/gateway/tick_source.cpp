@@ -72,6 +72,25 @@ Result<DriverStep> TickSource::Next() {
   return driver_->Next(batch_);
 }
 
+Status TickSource::FollowSlots(std::shared_ptr<const CoilSchedule> schedule, Time start_at) {
+  Duration to_host{};
+  if (!live()) {
+    // A recording's first tick is at about zero.
+    to_host = (first_tick_at_ ? stream_clock_.ToStream(Time{}) : start_at).time_since_epoch();
+  }
+  if (schedule == schedule_ && to_host == scheduled_to_host_) {
+    return Ok();
+  }
+  schedule_ = std::move(schedule);
+  scheduled_to_host_ = to_host;
+  CoilSchedule drivers{.own = {}, .foreign = schedule_->foreign, .to_host = to_host};
+  for (const roster::RosterEntry& body : driver_->Describe().bodies) {
+    drivers.own.push_back(
+        {.body_id = body.body_id, .grant = schedule_->Of(Renumbered(body.body_id))});
+  }
+  return driver_->FollowSlots(drivers);
+}
+
 Result<DriverStep> TickSource::Load(Time start_at) {
   Expects(!loaded_, "one tick loaded at a time");
   Result<DriverStep> step = Next();

@@ -27,6 +27,14 @@ class TickSource {
   [[nodiscard]] const DriverDescription& description() const { return description_; }
   [[nodiscard]] bool live() const { return description_.time == DriverTime::kHost; }
 
+  /// From the next tick on the driver's sources of coils pulse as `schedule` says, whose body ids
+  /// are those of the network. The driver is told when it is another one than before, or when our
+  /// time jumped.
+  ///
+  /// @param start_at  as for Load.
+  /// @returns what the driver answers; Ok when it was not told.
+  [[nodiscard]] Status FollowSlots(std::shared_ptr<const CoilSchedule> schedule, Time start_at);
+
   /// Loads the next tick (kData). The first tick of a recording is due at `start_at`, and its time
   /// becomes that. Nothing may be loaded before.
   [[nodiscard]] Result<DriverStep> Load(Time start_at);
@@ -62,6 +70,8 @@ class TickSource {
   std::int64_t body_id_offset_ = 0;
   std::unordered_map<BodyId, BodyId> granted_;  // the driver's to the session host's
   StreamClock stream_clock_;
+  std::shared_ptr<const CoilSchedule> schedule_;
+  Duration scheduled_to_host_{};
   Batch batch_;
   bool loaded_ = false;
   bool jumped_ = false;

@@ -34,6 +34,9 @@ SessionConfig ReadSessionConfig(const config::Section& section, SessionConfig de
   config.coil.burst_rate_hz = coil.Read("burst_rate_hz", config.coil.burst_rate_hz, 0.01, 100.0);
   limits.coil_slots = static_cast<std::uint32_t>(
       std::min(kMaxSlots, std::floor(sensing::PlanCoilSlots(config.coil).users)));
+  // Three pulses in each burst, one in each frame.
+  limits.coil_frame_us =
+      static_cast<std::uint32_t>(std::lround(1e6 / (3.0 * config.coil.burst_rate_hz)));
   config.state_dir = section.Read("state_dir", config.state_dir, kMaxPathLength);
   config.sessions = section.Read("sessions", config.sessions);
   for (const std::string& name : config.sessions) {

@@ -12,14 +12,16 @@
 namespace limbcast::session {
 
 /// What the session host does. Section [session]; keys as the fields, except where said. The limits
-/// are keys of the section itself (durations in seconds: `lease_s`, `grace_s`), but for coil_slots,
-/// which follow from the table [session.coil] (fields of sensing::CoilSlotConfig).
+/// are keys of the section itself (durations in seconds: `lease_s`, `grace_s`), but for coil_slots
+/// and coil_frame_us, which follow from the table [session.coil] (fields of
+/// sensing::CoilSlotConfig).
 struct SessionConfig {
   RegistryLimits limits;
 
   /// How long a pulse of a body-worn source takes and how often each is wanted: says how many
   /// sources a session can have. Keys pulse_s, clock_error_s, free_running_hz, burst_rate_hz.
-  sensing::CoilSlotConfig coil;
+  /// The default holds the gateway's two polarities of 30 ms and what settles after them.
+  sensing::CoilSlotConfig coil{.pulse_s = 0.07};
 
   /// Folder in which sessions and people survive a restart; empty = they do not. At most 1024
   /// characters.

@@ -53,13 +53,15 @@ roster::SessionState SessionRegistry::StateOf(const Session& session) const {
           .created_at = session.known.created_at};
 }
 
-roster::RosterEntry SessionRegistry::EntryOf(const Session& session, const Person& person) {
+roster::RosterEntry SessionRegistry::EntryOf(const Session& session, const Person& person) const {
   return {.body_id = person.known.body_id,
           .revision = person.known.revision,
           .session = session.known.name,
           .person = person.known.person,
           .sensors = person.known.sensors,
-          .coil_slot = person.known.coil_slot};
+          .coil_slot = person.known.coil_slot,
+          .coil_slots = person.known.coil_slot == 0 ? 0 : limits_.coil_slots,
+          .coil_frame_us = person.known.coil_slot == 0 ? 0 : limits_.coil_frame_us};
 }
 
 Result<roster::SessionState> SessionRegistry::Create(std::string_view name, Time now) {
@@ -167,7 +169,8 @@ void SessionRegistry::Enter(Session& session, Person& person, const roster::Join
       --remembered_;
     }
     person.known.here = true;
-    person.known.coil_slot = FreeSlot(session, person.known.coil_slot);
+    person.known.coil_slot =
+        request.wants_coil_slot ? FreeSlot(session, person.known.coil_slot) : 0;
     person.answered_request = 0;
     ++performers_;
     ++session.performers;
@@ -183,12 +186,17 @@ void SessionRegistry::Enter(Session& session, Person& person, const roster::Join
       Count(session, request.client_uid, 1);
       person.answered_request = 0;
       dirty_ = true;
+      if (request.wants_coil_slot != (person.known.coil_slot != 0)) {
+        person.known.coil_slot = request.wants_coil_slot ? FreeSlot(session, 0) : 0;
+        changed = true;
+      }
     }
   }
   if (!request.sensors.empty() && person.known.sensors != request.sensors) {
     Wear(session, person, request.sensors, now);
     changed = true;
   }
+  person.wants_coil_slot = request.wants_coil_slot;
   person.known.client_uid = request.client_uid;
   person.alive = true;
   person.seen_at = now;

@@ -28,8 +28,9 @@ struct RegistryLimits {
   std::size_t max_remembered = 4096;         ///< people of all sessions who left. Range: [0, 65536]
   Duration lease = std::chrono::seconds(2);  ///< a client silent for longer has vanished: [1, 60] s
   Duration grace = std::chrono::seconds(30);  ///< a person who vanished stays so long: [0, 1 d]
-  double new_members_per_s = 200.0;  ///< all sessions; a burst may have twice that: [1, 1e5]
-  std::uint32_t coil_slots = 1;      ///< sources that can pulse in turn. Range: [0, 1000]
+  double new_members_per_s = 200.0;       ///< all sessions; a burst may have twice that: [1, 1e5]
+  std::uint32_t coil_slots = 1;           ///< sources that can pulse in turn. Range: [0, 1000]
+  std::uint32_t coil_frame_us = 200'000;  ///< in which each of them does. Range: [1000, 1e9]
 };
 [[nodiscard]] Status Validate(const RegistryLimits& limits);
 
@@ -143,6 +144,7 @@ class SessionRegistry {
     bool alive = false;
     Time seen_at{};
     std::uint64_t answered_request = 0;
+    bool wants_coil_slot = false;
   };
   struct Watcher {
     Time seen_at{};
@@ -177,8 +179,9 @@ class SessionRegistry {
   [[nodiscard]] Status CheckOperator(const Session& session, std::uint64_t client_uid);
   [[nodiscard]] Session* Find(std::string_view name);
   [[nodiscard]] roster::SessionState StateOf(const Session& session) const;
-  [[nodiscard]] static roster::RosterEntry EntryOf(const Session& session, const Person& person);
+  [[nodiscard]] roster::RosterEntry EntryOf(const Session& session, const Person& person) const;
   [[nodiscard]] std::uint32_t FreeSlot(const Session& session, std::uint32_t preferred) const;
+  void PassSlotOn(Session& session, const Person& from);
   void Enter(Session& session, Person& person, const roster::JoinRequest& request, Time now);
   void Wear(const Session& session, Person& person, std::vector<roster::SensorAssignment> sensors,
             Time now);

@@ -24,6 +24,7 @@ Status Validate(const RegistryLimits& limits) {
       Range{"grace_s", ToSeconds(limits.grace), 0, 86400},
       Range{"new_members_per_s", limits.new_members_per_s, 1, 1e5},
       Range{"coil_slots", static_cast<double>(limits.coil_slots), 0, 1000},
+      Range{"coil_frame_us", static_cast<double>(limits.coil_frame_us), 1000, 1e9},
   };
   for (const Range& range : ranges) {
     if (!(range.value >= range.low && range.value <= range.high)) {
@@ -95,8 +96,26 @@ void SessionRegistry::Release(Session& session, Person& person, Time now) {
   --session.performers;
   ++remembered_;
   changes_.emplace_back(EntryGone{EntryOf(session, person)});
+  PassSlotOn(session, person);
   Changed(session);
   dirty_ = true;
+}
+
+// Whoever has waited longest for one: body ids are given in the order of coming.
+void SessionRegistry::PassSlotOn(Session& session, const Person& from) {
+  Person* first = nullptr;
+  for (auto& [name, person] : session.people) {
+    const bool waits = person.known.here && person.wants_coil_slot && person.known.coil_slot == 0;
+    if (waits && (first == nullptr || person.known.body_id < first->known.body_id)) {
+      first = &person;
+    }
+  }
+  if (from.known.coil_slot == 0 || first == nullptr) {
+    return;
+  }
+  first->known.coil_slot = from.known.coil_slot;
+  ++first->known.revision;
+  changes_.emplace_back(EntryChanged{EntryOf(session, *first)});
 }
 
 void SessionRegistry::Close(Session& session) {
@@ -252,7 +271,7 @@ Result<SessionRegistry> SessionRegistry::Restore(const RegistryLimits& limits,
       ++session.performers;
       ++registry.performers_;
       Count(session, person.client_uid, 1);
-      registry.changes_.emplace_back(EntryChanged{EntryOf(session, restored)});
+      registry.changes_.emplace_back(EntryChanged{registry.EntryOf(session, restored)});
     }
     if (session.performers > limits.max_members) {
       return corrupt(fmt::format("session \"{}\" has {} performers, session.max_members is {}",

@@ -262,6 +262,8 @@ void Fill(roster::RosterEntry& v, Draw& draw, std::uint32_t key, std::uint32_t s
   v.person = draw.Text(64);
   v.sensors = Assignments(draw);
   v.coil_slot = draw.Below(100);
+  v.coil_slots = draw.Below(100);
+  v.coil_frame_us = draw.Below(1'000'000);
 }
 Numbers KeyAndSequence(const roster::RosterEntry& v) { return Pair(v.body_id.value, v.revision); }
 
@@ -279,6 +281,7 @@ Numbers KeyAndSequence(const roster::SessionState& v) { return Pair(v.session_id
 void Fill(roster::JoinRequest& v, Draw& draw, std::uint32_t key, std::uint32_t sequence) {
   v = {key, sequence, draw.Text(64), draw.Text(64), draw.OneOf<roster::Role>(3), {}};
   v.sensors = Assignments(draw);
+  v.wants_coil_slot = draw.Coin();
 }
 Numbers KeyAndSequence(const roster::JoinRequest& v) { return Pair(v.client_uid, v.request_id); }
 

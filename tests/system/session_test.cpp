@@ -7,12 +7,15 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/bus/bus_factory.hpp"
 #include "common/client/client.hpp"
 #include "common/client/session_directory.hpp"
+#include "common/sensing/coil_slots.hpp"
 #include "tests/system/program.hpp"
 
 namespace limbcast {
@@ -154,6 +157,79 @@ TEST_P(SessionSystemTest, PeopleOfTwoSessionsWithTheSameNamesDoNotMix) {
   for (std::size_t i = 1; i < services.size(); ++i) {
     const process::ExitState ended = services[i].Stop(8s);
     EXPECT_TRUE(ended.clean()) << i << ": " << ended.status << ' ' << ended.signal;
+  }
+}
+
+// Two gateways that know nothing of one another: the roster says when each one's coils are on.
+TEST_P(SessionSystemTest, CoilsOfTwoGatewaysPulseInTheSlotsThatTheHostGrants) {
+  auto host = StartHost();
+  ASSERT_EQ(Run({"create", "stage"}).status, 0) << host.Errors();
+  bus::BusConfig config;
+  config.vendor = bus::ParseVendor(GetParam()).value();
+  config.domain_id = static_cast<std::uint32_t>(std::stoul(domain_));
+  config.partition = "stage";
+  const auto bus = bus::Open(config).value();
+  std::mutex mutex;
+  std::map<SensorUid, std::uint32_t> bodies;             // who wears which sensor
+  std::map<std::uint32_t, roster::RosterEntry> entries;  // by body
+  std::map<std::uint32_t, std::vector<Time>> on_at;      // by body, whole pulses
+  std::map<std::uint32_t, std::vector<Time>> off_at;
+  const auto roster_reader = *bus->MakeReader<roster::RosterEntry>(
+      {.on_sample =
+           [&](const roster::RosterEntry& entry, const bus::SampleInfo&) {
+             const std::scoped_lock lock(mutex);
+             entries[entry.body_id.value] = entry;
+             for (const roster::SensorAssignment& sensor : entry.sensors) {
+               bodies[sensor.sensor_uid] = entry.body_id.value;
+             }
+           },
+       .on_disposed = {}});
+  const auto burst_reader = *bus->MakeReader<sensing::CoilBurst>(
+      {.on_sample =
+           [&](const sensing::CoilBurst& burst, const bus::SampleInfo&) {
+             const std::scoped_lock lock(mutex);
+             for (const sensing::CoilPulse& pulse : burst.pulses) {
+               const auto body = bodies.find(burst.sensor_uid);
+               if (pulse.off_at != Time{} && body != bodies.end()) {
+                 on_at[body->second].push_back(pulse.on_at);
+                 off_at[body->second].push_back(pulse.off_at);
+               }
+             }
+           },
+       .on_disposed = {}});
+  std::vector<process::ChildProcess> gateways;
+  for (const std::string person : {"Ada", "Bob"}) {
+    auto started = process::ChildProcess::Start(
+        {.arguments = {Program("limbcast-gateway"), "--dds", GetParam(), "--domain", domain_,
+                       "--set", "gateway.session_host=true", "--set", "gateway.session=stage",
+                       "--set", "gateway.person=" + person, "--set",
+                       "simulator.serial_prefix=" + person, "--set",
+                       "simulator.coils.source=pelvis"}});
+    ASSERT_TRUE(started.ok());
+    gateways.push_back(std::move(*started));
+  }
+  EXPECT_TRUE(Eventually(20s,
+                         [&] {
+                           const std::scoped_lock lock(mutex);
+                           return on_at[1].size() > 20 && on_at[2].size() > 20;
+                         }))
+      << gateways[0].Errors() << gateways[1].Errors();
+  for (process::ChildProcess& gateway : gateways) {
+    EXPECT_TRUE(gateway.Stop(8s).clean());
+  }
+  const std::scoped_lock lock(mutex);
+  EXPECT_NE(entries[1].coil_slot, entries[2].coil_slot);
+  for (const std::uint32_t body : {1U, 2U}) {
+    const roster::RosterEntry& entry = entries[body];
+    EXPECT_EQ(entry.coil_slots, 2U);
+    const sensing::CoilGrant grant{.slot = entry.coil_slot - 1,
+                                   .slots = entry.coil_slots,
+                                   .frame = std::chrono::microseconds(entry.coil_frame_us)};
+    for (std::size_t i = 0; i < on_at[body].size(); ++i) {
+      // Times of samples, one in 10 ms: the first with the coil on, the first without.
+      EXPECT_TRUE(sensing::IsInSlot(grant, on_at[body][i])) << body;
+      EXPECT_TRUE(sensing::IsInSlot(grant, off_at[body][i])) << body;
+    }
   }
 }
 

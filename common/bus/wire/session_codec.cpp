@@ -19,6 +19,8 @@ void Fields(V& field, D& d, W& w) {
   field("person", d.person, w.person());
   field.List("sensors", d.sensors, w.sensors(), 64);
   field("coil_slot", d.coil_slot, w.coil_slot());
+  field("coil_slots", d.coil_slots, w.coil_slots());
+  field("coil_frame_us", d.coil_frame_us, w.coil_frame_us());
 }
 
 template <typename V, Of<roster::SessionState> D, typename W>
@@ -48,6 +50,7 @@ void Fields(V& field, D& d, W& w) {
   field("session", d.session, w.session());
   field("person", d.person, w.person());
   field("role", d.role, w.role());
+  field("wants_coil_slot", d.wants_coil_slot, w.wants_coil_slot());
   field.List("sensors", d.sensors, w.sensors(), 64);
 }
 template <typename V, Of<roster::JoinReply> D, typename W>

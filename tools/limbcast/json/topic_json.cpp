@@ -277,7 +277,9 @@ json ToJson(const roster::RosterEntry& value) {
           {"session", value.session},
           {"person", value.person},
           {"sensors", ListToJson(value.sensors, AssignmentToJson)},
-          {"coil_slot", value.coil_slot}};
+          {"coil_slot", value.coil_slot},
+          {"coil_slots", value.coil_slots},
+          {"coil_frame_us", value.coil_frame_us}};
 }
 
 json ToJson(const roster::SessionState& value) {
@@ -291,10 +293,13 @@ json ToJson(const roster::SessionState& value) {
 }
 
 json ToJson(const roster::JoinRequest& value) {
-  return {
-      {"client_uid", value.client_uid}, {"request_id", value.request_id},
-      {"session", value.session},       {"person", value.person},
-      {"role", RoleName(value.role)},   {"sensors", ListToJson(value.sensors, AssignmentToJson)}};
+  return {{"client_uid", value.client_uid},
+          {"request_id", value.request_id},
+          {"session", value.session},
+          {"person", value.person},
+          {"role", RoleName(value.role)},
+          {"sensors", ListToJson(value.sensors, AssignmentToJson)},
+          {"wants_coil_slot", value.wants_coil_slot}};
 }
 
 json ToJson(const roster::JoinReply& value) {

@@ -53,8 +53,7 @@ Status Validate(const SimulatedCoilsConfig& config) {
     return ranges;
   }
   const simulation::CoilPulseConfig pulses = PulsesOf(config, 0, 0);
-  const double busy_s =
-      simulation::PulseLength_s(pulses) + config.settling_s + 2.0 * config.clock_error_s;
+  const double busy_s = LeastSlot_s(config);
   if (busy_s > config.slot_s) {
     return Error{ErrorCode::kInvalidArgument,
                  "simulator.coils.slot_s must hold pulse, settling and twice the clock error, " +
@@ -80,6 +79,11 @@ simulation::CoilPulseConfig PulsesOf(const SimulatedCoilsConfig& config, std::ui
   pulses.clock_error_s =
       simulation::Random(seed, "coil clock").Uniform(-config.clock_error_s, config.clock_error_s);
   return pulses;
+}
+
+double LeastSlot_s(const SimulatedCoilsConfig& config) {
+  return simulation::PulseLength_s(PulsesOf(config, 0, 0)) + config.settling_s +
+         2.0 * config.clock_error_s;
 }
 
 simulation::TriadErrors CoilMagErrors(const SimulatedCoilsConfig& config) {

@@ -32,7 +32,8 @@ struct SimulatedCoilsConfig {
   double settling_s = 0.0085;       ///< after each edge. Range: [0, 0.05]
   double time_constant_s = 0.0012;  ///< L/R. Range: [0, 0.01]
   /// Sources pulse in turn: slot k belongs to persons k, k + slots, ... Each slot takes one pulse,
-  /// each source pulses X, Y, Z in three rounds. Range: [1, 100].
+  /// each source pulses X, Y, Z in three rounds. Range: [1, 100]. What a session host grants goes
+  /// before these two.
   std::uint32_t slots = 2;
   double slot_s = 0.1;             ///< pulse, settling and guard. Range: [0.02, 2]
   double clock_error_s = 0.0;      ///< each source is late by up to ± this. Range: [0, 0.05]
@@ -49,6 +50,9 @@ struct SimulatedCoilsConfig {
 /// The pulses of person `index`, its clock error drawn from `seed`.
 [[nodiscard]] simulation::CoilPulseConfig PulsesOf(const SimulatedCoilsConfig& config,
                                                    std::uint32_t index, std::uint64_t seed);
+
+/// How long a slot must be for these pulses.
+[[nodiscard]] double LeastSlot_s(const SimulatedCoilsConfig& config);
 
 /// Magnetometers of people who wear coils: calibrated, and as quiet as the configuration says.
 [[nodiscard]] simulation::TriadErrors CoilMagErrors(const SimulatedCoilsConfig& config);

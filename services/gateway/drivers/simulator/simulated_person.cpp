@@ -1,5 +1,7 @@
 #include "services/gateway/drivers/simulator/simulated_person.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -107,8 +109,31 @@ const SimulatedPerson::Sensor* SimulatedPerson::Find(body::Segment segment) cons
   return found == sensors_.end() ? nullptr : &*found;
 }
 
-std::optional<ActiveCoil> SimulatedPerson::CoilAt(double t_s) const {
+Status SimulatedPerson::FollowSlot(const std::optional<sensing::CoilGrant>& grant, double t_s,
+                                   Time at) {
   if (!coils_.source) {
+    return Ok();
+  }
+  may_pulse_ = grant.has_value();
+  if (!may_pulse_) {
+    return Ok();
+  }
+  const double slot_s = ToSeconds(grant->slot_length());
+  if (slot_s < LeastSlot_s(coils_)) {
+    may_pulse_ = false;
+    return Error{
+        ErrorCode::kInvalidArgument,
+        fmt::format("the coils of {} need slots of {} s, and are granted {} s: they do not "
+                    "pulse",
+                    roster_entry_.person, LeastSlot_s(coils_), slot_s)};
+  }
+  pulses_.cycle_s = 3.0 * ToSeconds(grant->frame);
+  pulses_.begin_s = t_s + ToSeconds(sensing::NextSlotBegin(*grant, at) - at);
+  return Ok();
+}
+
+std::optional<ActiveCoil> SimulatedPerson::CoilAt(double t_s) const {
+  if (!coils_.source || !may_pulse_) {
     return std::nullopt;
   }
   const simulation::SensorMounting& mounting = Find(*coils_.source)->mounting;
@@ -172,8 +197,9 @@ void SimulatedPerson::Next(Time measured_at, double t_s, Batch& batch,
                            std::span<const ActiveCoil> coils) {
   const simulation::PersonPose pose = motion_.At(t_s);
   if (coils_.source) {
-    batch.coil_drives.push_back({.source_uid = Find(*coils_.source)->info.sensor_uid,
-                                 .drive = simulation::StatedDrive(pulses_, t_s)});
+    batch.coil_drives.push_back(
+        {.source_uid = Find(*coils_.source)->info.sensor_uid,
+         .drive = may_pulse_ ? simulation::StatedDrive(pulses_, t_s) : sensing::CoilDrive{}});
   }
   if (cameras_) {
     cameras_->Next(motion_, roster_entry_.body_id, measured_at, t_s, batch.markers);

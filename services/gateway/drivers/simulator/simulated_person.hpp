@@ -28,6 +28,11 @@ class SimulatedPerson {
   /// everybody.
   void Next(Time measured_at, double t_s, Batch& batch, std::span<const ActiveCoil> coils = {});
 
+  /// From `t_s` on, which is `at` on the host's clock, the coils pulse in this slot; without one
+  /// they do not. Fails, and they do not, when the pulses do not fit into it.
+  [[nodiscard]] Status FollowSlot(const std::optional<sensing::CoilGrant>& grant, double t_s,
+                                  Time at);
+
   /// As the driver describes it; nothing without coils.
   [[nodiscard]] std::optional<CoilSourceInfo> coil_source() const;
 
@@ -57,6 +62,7 @@ class SimulatedPerson {
   std::vector<Sensor> sensors_;
   SimulatedCoilsConfig coils_;
   simulation::CoilPulseConfig pulses_;
+  bool may_pulse_ = true;
   std::uint32_t index_;
   std::optional<SimulatedCameras> cameras_;
   std::uint64_t tick_ = 0;

@@ -1,6 +1,7 @@
 #include "services/gateway/drivers/simulator/simulator_driver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -73,13 +74,37 @@ SimulatorDriver::SimulatorDriver(const SimulatorConfig& config,
   for (const SimulatedPerson& person : persons_) {
     description_.bodies.push_back(person.roster_entry());
     if (auto source = person.coil_source()) {
-      description_.bodies.back().coil_slot = source->slot + 1;
+      roster::RosterEntry& body = description_.bodies.back();
+      body.coil_slot = source->slot + 1;
+      body.coil_slots = config.coils.slots;
+      body.coil_frame_us =
+          static_cast<std::uint32_t>(std::lround(1e6 * config.coils.slots * config.coils.slot_s));
       description_.coil_sources.push_back(*std::move(source));
     }
     for (sensing::SensorInfo& info : person.sensors()) {
       description_.sensors.push_back(std::move(info));
     }
   }
+}
+
+Status SimulatorDriver::FollowSlots(const CoilSchedule& schedule) {
+  const double t_s = static_cast<double>(tick_) / config_.rate_hz;
+  const Time at = Time{DurationFromSeconds(t_s)} + schedule.to_host;
+  const bool same_time = schedule_ && schedule_->to_host == schedule.to_host;
+  Status followed = Ok();
+  for (SimulatedPerson& person : persons_) {
+    const BodyId body = person.roster_entry().body_id;
+    const auto grant = schedule.Of(body);
+    // A train of pulses that goes on is not begun anew for what others do.
+    if (same_time && schedule_->Of(body) == grant) {
+      continue;
+    }
+    if (Status fits = person.FollowSlot(grant, t_s, at); !fits) {
+      followed = fits;
+    }
+  }
+  schedule_ = schedule;
+  return followed;
 }
 
 Result<DriverStep> SimulatorDriver::Next(Batch& batch) {
@@ -115,6 +140,9 @@ Status SimulatorDriver::Rewind() {
   }
   persons_ = std::move(*persons);
   tick_ = 0;
+  if (const auto schedule = std::exchange(schedule_, std::nullopt)) {
+    return FollowSlots(*schedule);
+  }
   return Ok();
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/base/result.hpp"
@@ -19,6 +20,7 @@ class SimulatorDriver final : public Driver {
 
   [[nodiscard]] const DriverDescription& Describe() const override { return description_; }
   [[nodiscard]] Result<DriverStep> Next(Batch& batch) override;
+  [[nodiscard]] Status FollowSlots(const CoilSchedule& schedule) override;
   /// kUnsupported for a simulation without an end.
   [[nodiscard]] Status Rewind() override;
 
@@ -29,6 +31,7 @@ class SimulatorDriver final : public Driver {
 
   SimulatorConfig config_;
   std::vector<SimulatedPerson> persons_;
+  std::optional<CoilSchedule> schedule_;  // none: as configured
   DriverDescription description_;
   std::vector<ActiveCoil> coils_;  // that are on in this tick
   std::uint64_t tick_ = 0;

@@ -102,6 +102,7 @@ LIMBCAST_FIELDS(body::JointAngleFrame) {
 LIMBCAST_FIELDS(roster::SensorAssignment) { F(sensor_uid), ENUM(segment, body::Segment::kLeftToe); }
 LIMBCAST_FIELDS(roster::RosterEntry) {
   F(body_id), F(revision), TEXT(session, 64), TEXT(person, 64), LIST(sensors, 64), F(coil_slot);
+  F(coil_slots), F(coil_frame_us);
 }
 LIMBCAST_FIELDS(roster::SessionState) {
   F(session_id), F(revision), TEXT(name, 64), TEXT(partition, 64), F(open), F(performer_count);
@@ -109,7 +110,7 @@ LIMBCAST_FIELDS(roster::SessionState) {
 }
 LIMBCAST_FIELDS(roster::JoinRequest) {
   F(client_uid), F(request_id), TEXT(session, 64), TEXT(person, 64);
-  ENUM(role, roster::Role::kOperator), LIST(sensors, 64);
+  ENUM(role, roster::Role::kOperator), LIST(sensors, 64), F(wants_coil_slot);
 }
 LIMBCAST_FIELDS(roster::JoinReply) {
   F(client_uid), F(request_id), F(accepted), F(body_id), TEXT(partition, 64), TEXT(message, 255);

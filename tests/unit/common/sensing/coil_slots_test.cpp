@@ -44,6 +44,28 @@ TEST(CoilSlotsTest, ForeignFieldsAreThoseOfTheSpecification) {
   EXPECT_NEAR(PlanCoilSlots({}).reuse_distance_m, 2.7, 0.05);
 }
 
+TEST(CoilSlotsTest, ASlotComesOnceInEachFrameOfTheSystemClock) {
+  using namespace std::chrono_literals;
+  const CoilGrant grant{.slot = 2, .slots = 4, .frame = 200ms};
+  EXPECT_EQ(grant.slot_length(), 50ms);
+  const auto at = [](Duration since) { return TimeFromNanoseconds(0) + 1000h + since; };
+  EXPECT_FALSE(IsInSlot(grant, at(100ms - 1ns)));
+  EXPECT_TRUE(IsInSlot(grant, at(100ms)));
+  EXPECT_TRUE(IsInSlot(grant, at(150ms - 1ns)));
+  EXPECT_FALSE(IsInSlot(grant, at(150ms)));
+  EXPECT_TRUE(IsInSlot(grant, at(520ms)));
+  EXPECT_EQ(NextSlotBegin(grant, at(100ms)), at(100ms));
+  EXPECT_EQ(NextSlotBegin(grant, at(100ms + 1ns)), at(300ms));
+  EXPECT_EQ(NextSlotBegin(grant, at(10ms)), at(100ms));
+  // Before 1970 as well, and where the slots do not divide the frame.
+  EXPECT_TRUE(IsInSlot(grant, TimeFromNanoseconds(-80'000'000)));
+  EXPECT_EQ(NextSlotBegin(grant, TimeFromNanoseconds(-150'000'000)),
+            TimeFromNanoseconds(-100'000'000));
+  const CoilGrant odd{.slot = 2, .slots = 3, .frame = 100ns};
+  EXPECT_TRUE(IsInSlot(odd, TimeFromNanoseconds(66)));
+  EXPECT_FALSE(IsInSlot(odd, TimeFromNanoseconds(99))) << "what is left of a frame is nobody's";
+}
+
 TEST(CoilSlotsTest, RangesAreChecked) {
   EXPECT_TRUE(Validate(CoilSlotConfig{}));
   CoilSlotConfig config;

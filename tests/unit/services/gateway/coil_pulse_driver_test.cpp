@@ -107,6 +107,29 @@ TEST(CoilPulseDriverTest, PulsesOfAnotherSlotAreMaskedAndOnlyThose) {
   EXPECT_GT(foreign, 50);
 }
 
+TEST(CoilPulseDriverTest, SlotsOfOtherGatewaysAreMaskedWhole) {
+  const auto driver =
+      Fake([](Batch& batch) { batch.coil_drives.push_back({.source_uid = {1}, .drive = {}}); });
+  CoilSchedule schedule;
+  schedule.own = {{.body_id = {1}, .grant = sensing::CoilGrant{.slot = 0, .slots = 2}}};
+  schedule.foreign = {sensing::CoilGrant{.slot = 1, .slots = 2}};
+  schedule.to_host = std::chrono::milliseconds(1'000'030);  // 30 ms into a frame of 200 ms
+  ASSERT_TRUE(driver->FollowSlots(schedule).ok());
+  Batch batch;
+  int masked = 0;
+  for (int tick = 0; tick < 40; ++tick) {
+    ASSERT_TRUE(driver->Next(batch));
+    const bool foreign = (30 + 10 * tick) % 200 >= 100;
+    masked += foreign ? 1 : 0;
+    for (const sensing::MargSample& sample : batch.marg) {
+      EXPECT_EQ(sample.flags & (sensing::kCoilPulseActive | sensing::kAnyCoilOn),
+                foreign ? static_cast<std::uint32_t>(sensing::kCoilPulseActive) : 0U)
+          << tick;
+    }
+  }
+  EXPECT_EQ(masked, 20);
+}
+
 // The amplitude of each pulse of a walking person against the exact field at the true pose.
 TEST(CoilPulseDriverTest, PulsesOfAWalkingPersonAreTheFieldOfTheCoils) {
   const auto driver = Make(Walking());

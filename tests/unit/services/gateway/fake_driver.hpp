@@ -44,6 +44,13 @@ class FakeDriver final : public Driver {
 
   [[nodiscard]] const DriverDescription& Describe() const override { return description_; }
 
+  std::vector<CoilSchedule> schedules;  ///< that it was told
+  Status fits = Ok();                   ///< what it answers to them
+  [[nodiscard]] Status FollowSlots(const CoilSchedule& schedule) override {
+    schedules.push_back(schedule);
+    return fits;
+  }
+
   [[nodiscard]] Result<DriverStep> Next(Batch& batch) override {
     batch.Clear();
     if (!steps.empty()) {

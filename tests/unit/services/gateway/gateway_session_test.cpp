@@ -64,7 +64,17 @@ TEST_F(GatewaySessionTest, EverybodyOfTheDriverJoinsAndGetsABody) {
   EXPECT_THAT((*session)->bodies(), ElementsAre(BodyId{40}, BodyId{41}));
   EXPECT_EQ(heard_[1].sensors, description_.bodies[1].sensors);
   EXPECT_EQ(heard_[1].role, roster::Role::kPerformer);
+  EXPECT_FALSE(heard_[1].wants_coil_slot);
   EXPECT_EQ(Error(**session), "");
+}
+
+TEST_F(GatewaySessionTest, WhoWearsCoilsAsksForASlot) {
+  StartHost();
+  description_.bodies[1].coil_slot = 1;
+  const auto session = GatewaySession::Make(*bus_, config_, description_);
+  EXPECT_TRUE((*session)->Wait(Never));
+  EXPECT_FALSE(heard_[0].wants_coil_slot);
+  EXPECT_TRUE(heard_[1].wants_coil_slot);
 }
 
 TEST_F(GatewaySessionTest, ThePersonOfTheConfigurationTakesTheDriversPlace) {

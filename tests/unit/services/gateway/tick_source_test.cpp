@@ -57,6 +57,34 @@ TEST(TickSourceTest, TimesOfMarkersAndCoilPulsesMoveWithTheTick) {
   EXPECT_EQ(batch.coil_bursts[0].pulses[0].off_at, Time{});  // that coil has not pulsed yet
 }
 
+TEST(TickSourceTest, TheDriverIsToldOfSlotsInItsOwnTimeAndBodiesOnceForEachChange) {
+  auto driver = std::make_unique<test::FakeDriver>(1, 5);
+  test::FakeDriver& fake = *driver;
+  GatewayConfig config;
+  config.body_id = 9;
+  TickSource source(std::move(driver), config);
+  const auto schedule = std::make_shared<CoilSchedule>();
+  schedule->own = {{.body_id = BodyId{9}, .grant = sensing::CoilGrant{.slot = 1, .slots = 2}}};
+  schedule->foreign = {sensing::CoilGrant{.slot = 0, .slots = 2}};
+  EXPECT_TRUE(source.FollowSlots(schedule, kNow).ok());
+  ASSERT_EQ(*source.Load(kNow), DriverStep::kData);
+  ASSERT_EQ(fake.schedules.size(), 1U);
+  EXPECT_EQ(fake.schedules[0].own[0].body_id, BodyId{1});
+  EXPECT_EQ(fake.schedules[0].own[0].grant, schedule->own[0].grant);
+  EXPECT_EQ(fake.schedules[0].foreign, schedule->foreign);
+  EXPECT_EQ(fake.schedules[0].to_host, kNow.time_since_epoch());
+  (void)source.Take(kNow);
+  EXPECT_TRUE(source.FollowSlots(schedule, kNow + 10ms).ok());
+  EXPECT_EQ(fake.schedules.size(), 1U) << "nothing changed";
+  fake.fits = Error{ErrorCode::kInvalidArgument, "too long"};
+  const auto other = std::make_shared<CoilSchedule>(*schedule);
+  other->own[0].grant.reset();
+  EXPECT_EQ(source.FollowSlots(other, kNow + 10ms).error().message, "too long");
+  ASSERT_EQ(fake.schedules.size(), 2U);
+  EXPECT_FALSE(fake.schedules[1].own[0].grant);
+  EXPECT_TRUE(source.FollowSlots(other, kNow + 10ms).ok()) << "said once";
+}
+
 TEST(TickSourceTest, BodiesAreThoseThatTheSessionHostGave) {
   auto driver = std::make_unique<test::FakeDriver>(1, 2);
   driver->with_truth = true;

@@ -32,7 +32,8 @@ inline roster::JoinRequest Asks(std::uint64_t client, std::string person,
           .session = "stage",
           .person = std::move(person),
           .role = roster::Role::kPerformer,
-          .sensors = std::move(sensors)};
+          .sensors = std::move(sensors),
+          .wants_coil_slot = true};
 }
 /// A performer who does not say what it wears.
 inline roster::JoinRequest AsksBare(std::uint64_t client, std::string person) {

@@ -66,6 +66,51 @@ TEST_F(SessionRegistryTest, APerformerGetsABodyAPartitionAndACoilSlot) {
   EXPECT_EQ(registry_.Contents("stage")->state.performer_count, 1U);
 }
 
+TEST_F(SessionRegistryTest, OnlyWhoWearsCoilsTakesASlotAndIsToldOfItsFrame) {
+  roster::JoinRequest without = Asks(7, "Ada", 11);
+  without.wants_coil_slot = false;
+  EXPECT_TRUE(Join(without).accepted);
+  EXPECT_TRUE(Join(Asks(8, "Bob", 12)).accepted);
+  EXPECT_TRUE(Join(Asks(9, "Cyd", 13)).accepted);
+  EXPECT_EQ(Entries()[0].coil_slot, 0U);
+  EXPECT_EQ(Entries()[0].coil_slots, 0U);
+  EXPECT_EQ(Entries()[1].coil_slot, 1U);
+  EXPECT_EQ(Entries()[2].coil_slot, 2U);
+  EXPECT_EQ(Entries()[2].coil_slots, 2U);
+  EXPECT_EQ(Entries()[2].coil_frame_us, 200'000U);
+}
+
+TEST_F(SessionRegistryTest, ASlotThatBecomesFreeGoesToWhoWaitsForOne) {
+  EXPECT_TRUE(Join(Asks(7, "Ada", 11)).accepted);
+  EXPECT_TRUE(Join(Asks(8, "Bob", 12)).accepted);
+  EXPECT_TRUE(Join(Asks(9, "Zoe", 13)).accepted);
+  EXPECT_TRUE(Join(Asks(10, "Cyd", 14)).accepted);
+  ASSERT_EQ(Entries()[3].person, "Zoe");
+  EXPECT_EQ(Entries()[3].coil_slot, 0U) << "there are two";
+  const std::uint32_t revision = Entries()[3].revision;
+  EXPECT_TRUE(registry_.Do("stage", Command(8, CommandKind::kLeaveSession, "Bob"), now_).ok());
+  ASSERT_EQ(Entries().size(), 3U);
+  EXPECT_EQ(Entries()[2].person, "Zoe") << "who came before Cyd";
+  EXPECT_EQ(Entries()[2].coil_slot, 2U);
+  EXPECT_GT(Entries()[2].revision, revision);
+  EXPECT_EQ(Entries()[1].coil_slot, 0U);
+}
+
+TEST_F(SessionRegistryTest, AGatewayThatReturnsWithoutCoilsGivesTheSlotBackAndWithThemTakesOne) {
+  EXPECT_TRUE(Join(Asks(7, "Ada", 11)).accepted);
+  EXPECT_TRUE(Join(Asks(8, "Bob", 12)).accepted);
+  Pass(1s);
+  roster::JoinRequest again = Asks(70, "Ada", 11);
+  again.wants_coil_slot = false;
+  EXPECT_TRUE(Join(again).accepted);
+  EXPECT_EQ(Entries()[0].coil_slot, 0U);
+  EXPECT_EQ(Entries()[1].coil_slot, 2U);
+  Pass(1s);
+  EXPECT_TRUE(Join(Asks(71, "Ada", 11)).accepted);
+  EXPECT_EQ(Entries()[0].coil_slot, 1U);
+  EXPECT_EQ(Entries()[1].coil_slot, 2U);
+}
+
 TEST_F(SessionRegistryTest, ARepeatedRequestChangesNothingAndNeedsNoAnswer) {
   EXPECT_TRUE(registry_.Join("stage", Asks(7, "Ada", 11), now_).is_news);
   (void)registry_.TakeChanges();

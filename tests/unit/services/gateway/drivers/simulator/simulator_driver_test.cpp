@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
+#include <set>
 #include <string>
 
 namespace limbcast::gateway {
@@ -89,6 +91,72 @@ TEST(SimulatorDriverTest, RewindsToTheSameBits) {
 
   config.duration_s = 0.0;
   EXPECT_EQ((*SimulatorDriver::Make(config))->Rewind().error().code, ErrorCode::kUnsupported);
+}
+
+SimulatorConfig WithCoils() {
+  SimulatorConfig config;
+  config.persons = 2;
+  config.iron = false;
+  config.coils.source = body::Segment::kPelvis;
+  return config;
+}
+
+// When each source was on, in host time modulo a frame of 400 ms, in ticks of 10 ms.
+std::array<std::set<int>, 2> TicksOn(SimulatorDriver& driver, int from, int to) {
+  std::array<std::set<int>, 2> on;
+  Batch batch;
+  for (int tick = from; tick < to; ++tick) {
+    EXPECT_TRUE(driver.Next(batch));
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (batch.coil_drives[i].drive.coil >= 0) {
+        on[i].insert((tick + 7) % 40);
+      }
+    }
+  }
+  return on;
+}
+
+TEST(SimulatorDriverTest, CoilsPulseInTheSlotsThatTheyAreGranted) {
+  const auto driver = *SimulatorDriver::Make(WithCoils());
+  EXPECT_EQ(driver->Describe().bodies[1].coil_slot, 2U);
+  EXPECT_EQ(driver->Describe().bodies[1].coil_slots, 2U);
+  EXPECT_EQ(driver->Describe().bodies[1].coil_frame_us, 200'000U);
+  using namespace std::chrono_literals;
+  const sensing::CoilGrant second{.slot = 1, .slots = 4, .frame = 400ms};
+  const sensing::CoilGrant last{.slot = 3, .slots = 4, .frame = 400ms};
+  CoilSchedule schedule{
+      .own = {{{1}, last}, {{2}, second}}, .foreign = {}, .to_host = 40'000'075ms};
+  ASSERT_TRUE(driver->FollowSlots(schedule).ok());
+  auto on = TicksOn(*driver, 0, 400);
+  EXPECT_EQ(on[0], (std::set<int>{30, 31, 32, 33, 34, 35}));
+  EXPECT_EQ(on[1], (std::set<int>{10, 11, 12, 13, 14, 15}));
+  // One is taken away; the other goes on as it was.
+  schedule.own[1].grant.reset();
+  ASSERT_TRUE(driver->FollowSlots(schedule).ok());
+  on = TicksOn(*driver, 400, 800);
+  EXPECT_EQ(on[0], (std::set<int>{30, 31, 32, 33, 34, 35}));
+  EXPECT_TRUE(on[1].empty());
+  // Slots of 50 ms do not hold pulses of 60.
+  schedule.own[0].grant->slots = 8;
+  const Status fits = driver->FollowSlots(schedule);
+  ASSERT_FALSE(fits.ok());
+  EXPECT_NE(fits.error().message.find("0.05"), std::string::npos) << fits.error().message;
+  on = TicksOn(*driver, 800, 900);
+  EXPECT_TRUE(on[0].empty());
+}
+
+TEST(SimulatorDriverTest, FromTheBeginningAgainTheSlotsAreTheSame) {
+  SimulatorConfig config = WithCoils();
+  config.duration_s = 2.0;
+  const auto driver = *SimulatorDriver::Make(config);
+  CoilSchedule schedule;
+  schedule.own = {{{1}, std::nullopt}, {{2}, sensing::CoilGrant{}}};
+  ASSERT_TRUE(driver->FollowSlots(schedule).ok());
+  EXPECT_TRUE(TicksOn(*driver, 0, 200)[0].empty());
+  ASSERT_TRUE(driver->Rewind().ok());
+  const auto on = TicksOn(*driver, 0, 200);
+  EXPECT_TRUE(on[0].empty());
+  EXPECT_FALSE(on[1].empty());
 }
 
 TEST(SimulatorDriverTest, GapsAreCountedAsLostByTheDevice) {
