@@ -27,6 +27,8 @@ Result<CoilBothSides> CoilBothSides::Make(CoilInertialConfig config) {
   if (!lower) {
     return lower.error();
   }
+  upper->HeedSurprise(false);
+  lower->HeedSurprise(false);
   return CoilBothSides(*upper, *lower);
 }
 
@@ -58,7 +60,9 @@ CoilUpdateReport CoilBothSides::Update(const sensing::CoilFrame& frame) {
 // From now on the side is where the track is.
 void CoilBothSides::Decide() {
   decided_ = true;
-  (upper_leads_ ? upper_ : lower_).ForgetHalfSpace();
+  CoilInertialFilter& left = upper_leads_ ? upper_ : lower_;
+  left.ForgetHalfSpace();
+  left.HeedSurprise(true);
 }
 
 }  // namespace limbcast::filters

@@ -117,6 +117,7 @@ CoilUpdateReport CoilInertialFilter::Update(const sensing::CoilFrame& given) {
   }
   GuardCovariance(report);
   if (phase_ == CoilPhase::kAcquiring) {
+    LevelWithoutTrack(frame);
     Acquire(frame, report);
   } else {
     UseSample(frame, report);
@@ -249,7 +250,7 @@ void CoilInertialFilter::Propagate(const sensing::CoilFrame& frame, double dt_s,
     AddProcessNoise(ProcessNoiseOf(emitter_block_, config_.inertial, a_emitter_E, inflation),
                     EmitterStates(), P_);
   }
-  double walk = config_.walk_background_tesla_rts;
+  double walk = config_.walk_background_tesla_rts * Unrest();
   if (frame.measured_at < disturbed_until_) {
     walk *= 10.0;
   }
@@ -262,6 +263,25 @@ void CoilInertialFilter::Propagate(const sensing::CoilFrame& frame, double dt_s,
         of_radian * of_radian * frame.gyro_rad_s.norm() * dt_s;
   }
   P_.diagonal().segment<3>(Index::kBackground).array() += walk * walk * dt_s;
+}
+
+// How many times faster the background walks than was said: where its samples are a surprise again
+// and again, the room changes faster. NIS/3 of 1 is none; the walk grows until there is little
+// left.
+double CoilInertialFilter::Unrest() const {
+  constexpr double kUsual = 2.0;  // chance, over ten samples
+  constexpr double kMost = 300.0;
+  const double above = std::max(1.0, background_nis_ / kUsual);
+  return std::min(kMost, above * above);
+}
+
+void CoilInertialFilter::WatchBackground(double nis) {
+  constexpr double kShare = 0.1;    // of a new sample in the mean
+  constexpr double kMost = 1000.0;  // one outlier is no room
+  if (!heeds_surprise_) {
+    return;
+  }
+  background_nis_ += kShare * (std::min(nis, kMost) / 3.0 - background_nis_);
 }
 
 void CoilInertialFilter::UseSample(const sensing::CoilFrame& frame, CoilUpdateReport& report) {
@@ -308,6 +328,9 @@ void CoilInertialFilter::UseSample(const sensing::CoilFrame& frame, CoilUpdateRe
       config_.gate, R_noise, rejected_in_a_row_ < config_.gate.max_rejected_in_a_row, P_, record);
   report.gate = update.outcome;
   report.nis = update.nis;
+  if (frame.drive.coil < 0) {
+    WatchBackground(update.nis);
+  }
   rejected_in_a_row_ = update.outcome == GateOutcome::kRejected ? rejected_in_a_row_ + 1 : 0;
   if (record.fused) {
     step = record.K * record.nu;

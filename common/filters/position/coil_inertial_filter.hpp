@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -65,6 +66,13 @@ class CoilInertialFilter {
   [[nodiscard]] std::span<const CoilRecord> records() const {
     return {records_.data(), record_count_};
   }
+  /// The track is certain enough to be shown: √(tr P_pp) within `lost_relative_sigma` of |p|. A new
+  /// one may need a few pulses for that.
+  [[nodiscard]] bool is_certain() const {
+    return phase_ == CoilPhase::kTracking &&
+           std::sqrt(P_.topLeftCorner<3, 3>().trace()) <=
+               config_.lost_relative_sigma * state_.p_earth_m.norm();
+  }
   [[nodiscard]] int losses() const { return losses_; }
   /// Times that the covariance was rebuilt.
   [[nodiscard]] int rebuilds() const { return rebuilds_; }
@@ -78,6 +86,10 @@ class CoilInertialFilter {
     CoilUpdateReport report;
     Lose(report);
   }
+
+  /// Whether surprises between pulses let the background walk faster (as they do at first). Not
+  /// where two filters are compared by what surprises them.
+  void HeedSurprise(bool heed) { heeds_surprise_ = heed; }
 
   /// From now on the side of a new track is that of the last one.
   void ForgetHalfSpace() { config_.half_space.reset(); }
@@ -97,12 +109,16 @@ class CoilInertialFilter {
   void Resume(const sensing::CoilFrame& frame, const CoilMotion& motion);
   void EnterTracking(const sensing::CoilFrame& frame);
   void UseSample(const sensing::CoilFrame& frame, CoilUpdateReport& report);
+  [[nodiscard]] double Unrest() const;
+  void WatchBackground(double nis);
   [[nodiscard]] bool FitsWithoutCoil(const sensing::CoilFrame& frame) const;
   /// A further measurement of this instant: to be filled in, and then used.
   [[nodiscard]] MeasurementRecord<CoilInertialIndex::kAll, 3>& Further();
   void UseFurther(const SoftGateConfig& gate, double sigma);
   void UseEmitterSample(const sensing::CoilFrame& frame);
   void UseGauges(const sensing::CoilFrame& frame);
+  void LevelWithoutTrack(const sensing::CoilFrame& frame);
+  [[nodiscard]] double SigmaGravity_m_s2() const;
   void GuardCovariance(CoilUpdateReport& report);
   void WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report);
   void WatchPulses(const sensing::CoilFrame& frame, bool over, CoilUpdateReport& report);
@@ -137,10 +153,15 @@ class CoilInertialFilter {
   Time rest_since_{};
 
   Eigen::Vector3d background_start_tesla_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d agreed_emitter_m_ =
+      Eigen::Vector3d::Zero();  // where pulses agreed with the track
+  Time agreed_at_{};
   Time gravity_at_{};
   Time background_at_{};
   Time source_on_at_{};  // last time that a coil was on, or settled
   Time disturbed_until_{};
+  bool heeds_surprise_ = true;
+  double background_nis_ = 1.0;  // NIS/3 of samples without a coil, mean of the last ones
   bool ever_tracked_ = false;
   bool at_rest_ = true;  // since levelling: the first pose may take it that nothing moves
   // NIS of the pulse that is on, and of the last three.

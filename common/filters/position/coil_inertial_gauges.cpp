@@ -8,6 +8,13 @@ namespace limbcast::filters {
 
 // What else an instant says, beside the sensor's magnetometer.
 
+namespace {
+
+// Gauges say little, and always something.
+constexpr SoftGateConfig kNoGate{.downweight_above_nis = 1e12, .reject_above_nis = 1e12};
+
+}  // namespace
+
 MeasurementRecord<CoilInertialIndex::kAll, 3>& CoilInertialFilter::Further() {
   CoilRecord& record = records_[record_count_];
   record.chain_begins = false;
@@ -39,16 +46,36 @@ void CoilInertialFilter::UseEmitterSample(const sensing::CoilFrame& frame) {
   UseFurther(config_.gate, config_.sigma_mag_tesla);
 }
 
-void CoilInertialFilter::UseGauges(const sensing::CoilFrame& frame) {
-  // These say little, and always something.
-  constexpr SoftGateConfig kNoGate{.downweight_above_nis = 1e12, .reject_above_nis = 1e12};
-  const double since_gravity_s = ToSeconds(frame.measured_at - gravity_at_);
-  if (frame.emitter_inertial && since_gravity_s >= config_.gravity_period_s) {
-    constexpr double kSample_s = 1.0 / 120.0;  // the deviation is stated for one such sample
+// Without a track nothing else says what is up, and an attitude that is wrong finds no track again.
+// For a while gyros say it better than what is left of gravity in motion.
+void CoilInertialFilter::LevelWithoutTrack(const sensing::CoilFrame& frame) {
+  constexpr double kGyrosFor_s = 2.0;
+  if (!ever_tracked_ || ToSeconds(frame.measured_at - agreed_at_) < kGyrosFor_s ||
+      ToSeconds(frame.measured_at - gravity_at_) < config_.gravity_period_s) {
+    return;
+  }
+  SensorGravityGauge(state_, frame.accel_m_s2, Further());
+  UseFurther(kNoGate, SigmaGravity_m_s2());
+  if (frame.emitter_inertial) {
     GravityGauge(state_, frame.emitter_accel_m_s2, Further());
-    UseFurther(kNoGate,
-               config_.sigma_gravity_m_s2 *
-                   std::sqrt(std::min(1.0, kSample_s / std::max(since_gravity_s, kSample_s))));
+    UseFurther(kNoGate, SigmaGravity_m_s2());
+  }
+  gravity_at_ = frame.measured_at;
+  record_count_ = 0;  // there is nothing to be smoothed
+}
+
+// Of one sample in each period, which stands for those between; not for those of a dropout.
+double CoilInertialFilter::SigmaGravity_m_s2() const {
+  constexpr double kSample_s = 1.0 / 120.0;  // the deviation is stated for one such sample
+  return config_.sigma_gravity_m_s2 *
+         std::sqrt(std::min(1.0, kSample_s / std::max(config_.gravity_period_s, kSample_s)));
+}
+
+void CoilInertialFilter::UseGauges(const sensing::CoilFrame& frame) {
+  if (frame.emitter_inertial &&
+      ToSeconds(frame.measured_at - gravity_at_) >= config_.gravity_period_s) {
+    GravityGauge(state_, frame.emitter_accel_m_s2, Further());
+    UseFurther(kNoGate, SigmaGravity_m_s2());
     gravity_at_ = frame.measured_at;
   }
   if (ToSeconds(frame.measured_at - background_at_) >= config_.background_period_s) {

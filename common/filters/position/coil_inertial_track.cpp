@@ -13,6 +13,17 @@ namespace {
 
 using Index = CoilInertialIndex;
 constexpr int kSilentPulses = 3;
+constexpr double kAgreesBelow = 9.0;  // NIS of a pulse's first sample; mean 3
+
+// A pose that turns the source's up away from where its inertial unit has it is a wrong one,
+// however well it fits: pulses at the end of their reach fit more than one.
+bool KeepsUpright(const CoilPath& path, const CoilMotion& motion) {
+  constexpr double kMost_rad = 0.35;
+  const Eigen::Vector3d up_M = path.q_earth_emitter.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up_E =
+      path.q_earth_sensor.toRotationMatrix() * (motion.R_sensor_emitter * up_M);
+  return up_E.z() > std::cos(kMost_rad);
+}
 
 }  // namespace
 
@@ -45,8 +56,13 @@ void CoilInertialFilter::Acquire(const sensing::CoilFrame& frame, CoilUpdateRepo
     rule.half_space = config_.half_space;
     rule.boundary_rad = config_.half_space_boundary_rad;
   } else if (ever_tracked_) {
+    // Dead reckoning says for a moment on which side the sensor is; then memory says it better.
+    constexpr double kReckoned_s = 1.0;
     const CollectedPulse& middle = collector_.pulses()[1];
-    rule.predicted_emitter_m = middle.path.q_earth_emitter.conjugate() * middle.path.p_earth_m;
+    const bool reckoned = ToSeconds(frame.measured_at - agreed_at_) < kReckoned_s;
+    rule.predicted_emitter_m = reckoned
+                                   ? middle.path.q_earth_emitter.conjugate() * middle.path.p_earth_m
+                                   : agreed_emitter_m_;
   }
   if (ever_tracked_) {
     // The orientation runs on inertia; after three poses that do not fit anything may be.
@@ -60,7 +76,7 @@ void CoilInertialFilter::Acquire(const sensing::CoilFrame& frame, CoilUpdateRepo
     prior.sigma_v_m_s = sigma_v_m_s;
     const CoilMotion motion = SolveCoilMotion(pose_config, config_.source, *burst, rule, prior);
     ++attempts_;
-    if (motion.accepted) {
+    if (motion.accepted && KeepsUpright(middle.path, motion)) {
       Resume(frame, motion);
       report.acquired = true;
     } else if (attempts_ % kPatience == 0) {
@@ -162,6 +178,8 @@ void CoilInertialFilter::EnterTracking(const sensing::CoilFrame& frame) {
       collector_.background_earth_tesla() - state_.gradient_earth_tesla_m * state_.p_earth_m;
   SetVariance(P_, Index::kBackground, config_.start_sigma_background_tesla);
   if (!ever_tracked_) {
+    agreed_emitter_m_ = state_.p_emitter_sensor_m();
+    agreed_at_ = frame.measured_at;
     background_start_tesla_ = state_.background_earth_tesla;
   }
   phase_ = CoilPhase::kTracking;
@@ -217,6 +235,12 @@ void CoilInertialFilter::WatchTrack(const sensing::CoilFrame& frame, CoilUpdateR
   if (over && pulse_samples_ > 0) {
     pulse_means_[static_cast<std::size_t>(pulses_seen_ % 3)] = pulse_nis_ / pulse_samples_;
     ++pulses_seen_;
+    const double first_nis =
+        pulse_firsts_[static_cast<std::size_t>(pulses_seen_ - 1) % pulse_firsts_.size()];
+    if (first_nis < kAgreesBelow && is_certain()) {
+      agreed_emitter_m_ = state_.p_emitter_sensor_m();
+      agreed_at_ = frame.measured_at;
+    }
     pulse_nis_ = 0.0;
     pulse_samples_ = 0;
     const double mean = (pulse_means_[0] + pulse_means_[1] + pulse_means_[2]) / 3.0;

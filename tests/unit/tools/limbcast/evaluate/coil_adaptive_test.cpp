@@ -11,13 +11,19 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(CoilAdaptiveTest, PlannedPulsesAreFewerAndBetterThanATrainAsSeldom) {
-  const CoilAdaptiveResult result =
-      EvaluateAdaptive(MakeRestingExperiment(), CoilNoise::kThesis, 5);
-  EXPECT_GT(result.planned.tracked, 0.95);
-  EXPECT_LT(result.planned.duty, 0.36) << "the cap of the plan";
-  EXPECT_NEAR(result.seldom.duty, result.planned.duty, 0.02);
-  EXPECT_LT(result.planned.duty, result.usual.duty);
-  EXPECT_LT(result.planned.position_m, result.seldom.position_m);
+  double planned_m = 0.0;
+  double seldom_m = 0.0;
+  for (const std::uint64_t seed : {5U, 6U, 7U}) {
+    const CoilAdaptiveResult result =
+        EvaluateAdaptive(MakeRestingExperiment(), CoilNoise::kThesis, seed);
+    EXPECT_GT(result.planned.tracked, 0.95);
+    EXPECT_LT(result.planned.duty, 0.36) << "the cap of the plan";
+    EXPECT_NEAR(result.seldom.duty, result.planned.duty, 0.02);
+    EXPECT_LT(result.planned.duty, result.usual.duty);
+    planned_m += result.planned.position_m / 3.0;
+    seldom_m += result.seldom.position_m / 3.0;
+  }
+  EXPECT_LT(planned_m, 0.95 * seldom_m);
 }
 
 TEST(CoilAdaptiveTest, TheTableAndTheFileHaveAllThreeWays) {
