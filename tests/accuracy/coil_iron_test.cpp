@@ -33,7 +33,7 @@ TEST(CoilIronTest, TracksComeBackAndArePlacedWhereTheSensorIs) {
   const double there = static_cast<double>(count) / expected;
   std::printf("beside iron: %.0f mm RMS, there for %.0f %% of the time\n", 1e3 * rms_m,
               100.0 * there);
-  // Without levelling, memory of the side and attention to the background: 550 mm and a third.
+  // Without attention to the background, memory of the side and upright poses: 550 mm and a third.
   EXPECT_LT(rms_m, 0.2);
   EXPECT_GT(there, 0.55);
 }

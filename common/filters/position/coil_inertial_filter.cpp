@@ -117,7 +117,6 @@ CoilUpdateReport CoilInertialFilter::Update(const sensing::CoilFrame& given) {
   }
   GuardCovariance(report);
   if (phase_ == CoilPhase::kAcquiring) {
-    LevelWithoutTrack(frame);
     Acquire(frame, report);
   } else {
     UseSample(frame, report);

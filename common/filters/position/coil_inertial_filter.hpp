@@ -117,7 +117,6 @@ class CoilInertialFilter {
   void UseFurther(const SoftGateConfig& gate, double sigma);
   void UseEmitterSample(const sensing::CoilFrame& frame);
   void UseGauges(const sensing::CoilFrame& frame);
-  void LevelWithoutTrack(const sensing::CoilFrame& frame);
   [[nodiscard]] double SigmaGravity_m_s2() const;
   void GuardCovariance(CoilUpdateReport& report);
   void WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report);

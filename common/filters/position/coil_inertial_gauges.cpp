@@ -46,24 +46,6 @@ void CoilInertialFilter::UseEmitterSample(const sensing::CoilFrame& frame) {
   UseFurther(config_.gate, config_.sigma_mag_tesla);
 }
 
-// Without a track nothing else says what is up, and an attitude that is wrong finds no track again.
-// For a while gyros say it better than what is left of gravity in motion.
-void CoilInertialFilter::LevelWithoutTrack(const sensing::CoilFrame& frame) {
-  constexpr double kGyrosFor_s = 2.0;
-  if (!ever_tracked_ || ToSeconds(frame.measured_at - agreed_at_) < kGyrosFor_s ||
-      ToSeconds(frame.measured_at - gravity_at_) < config_.gravity_period_s) {
-    return;
-  }
-  SensorGravityGauge(state_, frame.accel_m_s2, Further());
-  UseFurther(kNoGate, SigmaGravity_m_s2());
-  if (frame.emitter_inertial) {
-    GravityGauge(state_, frame.emitter_accel_m_s2, Further());
-    UseFurther(kNoGate, SigmaGravity_m_s2());
-  }
-  gravity_at_ = frame.measured_at;
-  record_count_ = 0;  // there is nothing to be smoothed
-}
-
 // Of one sample in each period, which stands for those between; not for those of a dropout.
 double CoilInertialFilter::SigmaGravity_m_s2() const {
   constexpr double kSample_s = 1.0 / 120.0;  // the deviation is stated for one such sample

@@ -29,17 +29,6 @@ Eigen::Matrix<double, 3, 5> ByGradient(const Eigen::Vector3d& p) {
   return A;
 }
 
-// 0 = R f + g, of the unit whose attitude and accelerometer bias stand at these indices.
-void GravityOf(const Eigen::Quaterniond& q_earth_unit, const Eigen::Vector3d& f_m_s2, int theta,
-               int accel_bias, MeasurementRecord<Index::kAll, 3>& record) {
-  const Eigen::Matrix3d R = q_earth_unit.toRotationMatrix();
-  const Eigen::Vector3d f_E = R * f_m_s2;
-  record.nu = kGravity_m_s2 * Eigen::Vector3d::UnitZ() - f_E;
-  record.H.setZero();
-  record.H.middleCols<3>(theta) = -math::Skew(f_E);
-  record.H.middleCols<3>(accel_bias) = -R;
-}
-
 }  // namespace
 
 bool IsCurrentWrong(const sensing::CoilDrive& drive) {
@@ -87,14 +76,12 @@ void PredictEmitterSample(const CoilInertialState& state, const Eigen::Vector3d&
 
 void GravityGauge(const CoilInertialState& state, const Eigen::Vector3d& accel_m_s2,
                   MeasurementRecord<CoilInertialIndex::kAll, 3>& record) {
-  GravityOf(state.q_earth_emitter, accel_m_s2 - state.emitter.accel_bias_m_s2, Index::kEmitterTheta,
-            Index::kEmitterAccelBias, record);
-}
-
-void SensorGravityGauge(const CoilInertialState& state, const Eigen::Vector3d& accel_m_s2,
-                        MeasurementRecord<CoilInertialIndex::kAll, 3>& record) {
-  GravityOf(state.q_earth_sensor, accel_m_s2 - state.sensor.accel_bias_m_s2, Index::kSensorTheta,
-            Index::kSensorAccelBias, record);
+  const Eigen::Matrix3d R_EM = state.q_earth_emitter.toRotationMatrix();
+  const Eigen::Vector3d f_E = R_EM * (accel_m_s2 - state.emitter.accel_bias_m_s2);
+  record.nu = kGravity_m_s2 * Eigen::Vector3d::UnitZ() - f_E;
+  record.H.setZero();
+  record.H.middleCols<3>(Index::kEmitterTheta) = -math::Skew(f_E);
+  record.H.middleCols<3>(Index::kEmitterAccelBias) = -R_EM;
 }
 
 void BackgroundGauge(const CoilInertialState& state, const Eigen::Vector3d& start_earth_tesla,

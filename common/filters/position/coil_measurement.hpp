@@ -46,11 +46,6 @@ void PredictEmitterSample(const CoilInertialState& state, const Eigen::Vector3d&
 void GravityGauge(const CoilInertialState& state, const Eigen::Vector3d& accel_m_s2,
                   MeasurementRecord<CoilInertialIndex::kAll, 3>& record);
 
-/// The same of the sensor, whose acceleration is not small; for a filter that knows no position:
-/// θ_s: −[R_s f]× ,  b_as: −R_s.
-void SensorGravityGauge(const CoilInertialState& state, const Eigen::Vector3d& accel_m_s2,
-                        MeasurementRecord<CoilInertialIndex::kAll, 3>& record);
-
 /// The same of the background field: ν = m_start − m_e, H: m_e: I.
 void BackgroundGauge(const CoilInertialState& state, const Eigen::Vector3d& start_earth_tesla,
                      MeasurementRecord<CoilInertialIndex::kAll, 3>& record);

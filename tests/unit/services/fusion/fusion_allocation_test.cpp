@@ -92,7 +92,7 @@ TEST(FusionAllocationTest, PositionsAllocateWithTheRosterOnly) {
   const auto driver = gateway::WithCoilPulses(*gateway::SimulatorDriver::Make(simulator));
   test_support::FakeClock clock;
   const Time start = clock.Now();
-  constexpr std::size_t kTicks = 500;
+  constexpr std::size_t kTicks = 700;
   std::vector<gateway::Batch> batches(kTicks);
   for (std::size_t tick = 0; tick < kTicks; ++tick) {
     gateway::Batch& batch = batches[tick];

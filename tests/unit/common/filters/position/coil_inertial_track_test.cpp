@@ -87,37 +87,6 @@ void SilencePulses(Ticks& ticks, std::size_t first, std::size_t last) {
   }
 }
 
-double Tilt_rad(const Eigen::Quaterniond& q_earth_unit, const Eigen::Vector3d& up_unit) {
-  return std::acos(std::clamp((q_earth_unit * up_unit.normalized()).z(), -1.0, 1.0));
-}
-
-TEST(CoilInertialTrackTest, LostForSecondsTheUnitsAreLevelledByGravity) {
-  Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 40.0, 13);
-  constexpr std::size_t kLost = 1200;
-  SilencePulses(ticks, kLost, ticks.size());
-  auto filter = CoilInertialFilter::Make(SwingConfig());
-  ASSERT_TRUE(filter);
-  for (std::size_t k = 0; k < kLost; ++k) {
-    filter->Update(ticks[k].frame);
-  }
-  ASSERT_EQ(filter->phase(), CoilPhase::kTracking);
-  // What a wrong pose has done to the source's attitude: on its side.
-  CoilVector turned = CoilVector::Zero();
-  turned[CoilInertialIndex::kEmitterTheta] = 1.2;
-  turned[CoilInertialIndex::kP] = 2.0;
-  filter->Disturb(turned);
-  double up_to_now = 0.0;
-  for (std::size_t k = kLost; k < ticks.size(); ++k) {
-    filter->Update(ticks[k].frame);
-    if (k + 120 >= ticks.size()) {  // gravity, but for the motion of a second
-      up_to_now +=
-          Tilt_rad(filter->state().q_earth_emitter, ticks[k].frame.emitter_accel_m_s2) / 120.0;
-    }
-  }
-  ASSERT_EQ(filter->phase(), CoilPhase::kAcquiring);
-  EXPECT_LT(up_to_now, 0.3) << "it was 1.2";
-}
-
 TEST(CoilInertialTrackTest, LostForLongTheSideIsTheOneThatPulsesLastAgreedOn) {
   Ticks ticks = SwingingSensor(true, simulation::ThesisPulses(), 30.0, 14);
   constexpr std::size_t kLost = 1200;
