@@ -79,7 +79,7 @@ Status CoilPulseDriver::Rewind() {
   return rewound;
 }
 
-void CoilPulseDriver::TakeDrives(const Batch& batch) {
+void CoilPulseDriver::TakeDrives(const Batch& batch, bool foreign) {
   for (Source& source : sources_) {
     const auto said = std::find_if(
         batch.coil_drives.begin(), batch.coil_drives.end(),
@@ -102,7 +102,6 @@ void CoilPulseDriver::TakeDrives(const Batch& batch) {
       source.drive.settled = false;
     }
   }
-  const bool foreign = IsForeign(batch.tick_at);
   for (Source& source : sources_) {
     const bool disturbed =
         foreign || std::any_of(sources_.begin(), sources_.end(), [&](const Source& other) {
@@ -171,10 +170,10 @@ Result<DriverStep> CoilPulseDriver::Next(Batch& batch) {
   if (!step || *step != DriverStep::kData) {
     return step;
   }
-  TakeDrives(batch);
-  const bool any =
-      IsForeign(batch.tick_at) || std::any_of(sources_.begin(), sources_.end(),
-                                              [](const Source& source) { return source.active; });
+  const bool foreign = IsForeign(batch.tick_at);
+  TakeDrives(batch, foreign);
+  const bool any = foreign || std::any_of(sources_.begin(), sources_.end(),
+                                          [](const Source& source) { return source.active; });
   for (sensing::MargSample& sample : batch.marg) {
     const auto found = sensors_.find(sample.sensor_uid);
     if (found == sensors_.end() || !found->second.source) {

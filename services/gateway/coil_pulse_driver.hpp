@@ -59,7 +59,7 @@ class CoilPulseDriver final : public Driver {
   };
 
   void Forget();
-  void TakeDrives(const Batch& batch);
+  void TakeDrives(const Batch& batch, bool foreign);
   void TakeSlots();
   [[nodiscard]] bool IsForeign(Time tick_at) const;
   void Extract(Sensor& sensor, const sensing::MargSample& sample, std::vector<sensing::CoilBurst>&);

@@ -103,6 +103,9 @@ void SessionRegistry::Release(Session& session, Person& person, Time now) {
 
 // Whoever has waited longest for one: body ids are given in the order of coming.
 void SessionRegistry::PassSlotOn(Session& session, const Person& from) {
+  if (from.known.coil_slot == 0) {
+    return;
+  }
   Person* first = nullptr;
   for (auto& [name, person] : session.people) {
     const bool waits = person.known.here && person.wants_coil_slot && person.known.coil_slot == 0;
@@ -110,7 +113,7 @@ void SessionRegistry::PassSlotOn(Session& session, const Person& from) {
       first = &person;
     }
   }
-  if (from.known.coil_slot == 0 || first == nullptr) {
+  if (first == nullptr) {
     return;
   }
   first->known.coil_slot = from.known.coil_slot;

@@ -41,7 +41,6 @@ struct CoilOptions {
 };
 
 constexpr const char* kCommand = "limbcast evaluate coil";
-constexpr std::array kNoises = {CoilNoise::kThesis, CoilNoise::kModern};
 
 int Save(const CoilOptions& options, const nlohmann::json& json) {
   if (!options.json.empty()) {
@@ -57,17 +56,10 @@ template <typename Result>
 std::vector<Result> OfEach(const CoilOptions& options,
                            const std::vector<CoilExperiment>& experiments,
                            Result (*evaluate)(const CoilExperiment&, CoilNoise, std::uint64_t)) {
-  std::vector<std::pair<CoilNoise, const CoilExperiment*>> wanted;
-  for (const CoilNoise noise : kNoises) {
-    for (const CoilExperiment& experiment : experiments) {
-      if (experiment.name.find(options.only) != std::string::npos) {
-        wanted.emplace_back(noise, &experiment);
-      }
-    }
-  }
+  const std::vector<CoilCase> wanted = CoilCasesOf(experiments, options.only);
   std::vector<Result> results(wanted.size());
   ForEachIndex(wanted.size(), [&](std::size_t i) {
-    results[i] = evaluate(*wanted[i].second, wanted[i].first, options.seed);
+    results[i] = evaluate(experiments[wanted[i].experiment], wanted[i].noise, options.seed);
   });
   return results;
 }
@@ -97,19 +89,11 @@ int EvaluateSources(const CoilOptions& options) {
 }
 
 int EvaluateStates(const CoilOptions& options) {
-  const std::vector<CoilExperiment> experiments = MakeCoilExperiments(options.seed);
-  std::vector<std::pair<CoilNoise, std::size_t>> wanted;
-  for (const CoilNoise noise : kNoises) {
-    for (std::size_t i = 0; i < experiments.size(); ++i) {
-      if (experiments[i].name.find(options.only) != std::string::npos) {
-        wanted.emplace_back(noise, i);
-      }
-    }
-  }
+  const std::vector<CoilCase> wanted = CoilCasesOf(MakeCoilExperiments(options.seed), options.only);
   std::vector<CoilStatesResult> results(wanted.size());
   ForEachIndex(wanted.size(), [&](std::size_t i) {
-    results[i] =
-        EvaluateCoilStates(wanted[i].second, wanted[i].first, options.seed, options.repetitions);
+    results[i] = EvaluateCoilStates(wanted[i].experiment, wanted[i].noise, options.seed,
+                                    options.repetitions);
   });
   fmt::print("{}", CoilStatesTable(results));
   return Save(options, CoilStatesJson(results, options.seed));
@@ -130,10 +114,10 @@ int EvaluateRecordings(const CoilOptions& options) {
       return Refuse(kCommand, recording.error());
     }
     const auto gaps = GapTrialOf(*recording, file.stem().string());
-    std::array<std::optional<CoilResult>, kNoises.size()> of_file;
-    ForEachIndex(kNoises.size(), [&](std::size_t i) {
-      if (const auto trial =
-              gaps ? MakeCoilTrial(*gaps, kNoises[i], options.seed) : std::optional<CoilTrial>()) {
+    std::array<std::optional<CoilResult>, kCoilNoises.size()> of_file;
+    ForEachIndex(kCoilNoises.size(), [&](std::size_t i) {
+      if (const auto trial = gaps ? MakeCoilTrial(*gaps, kCoilNoises[i], options.seed)
+                                  : std::optional<CoilTrial>()) {
         of_file[i] = EvaluateTrial(*trial);
       }
     });

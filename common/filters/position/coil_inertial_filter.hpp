@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -66,13 +65,6 @@ class CoilInertialFilter {
   [[nodiscard]] std::span<const CoilRecord> records() const {
     return {records_.data(), record_count_};
   }
-  /// The track is certain enough to be shown: √(tr P_pp) within `lost_relative_sigma` of |p|. A new
-  /// one may need a few pulses for that.
-  [[nodiscard]] bool is_certain() const {
-    return phase_ == CoilPhase::kTracking &&
-           std::sqrt(P_.topLeftCorner<3, 3>().trace()) <=
-               config_.lost_relative_sigma * state_.p_earth_m.norm();
-  }
   [[nodiscard]] int losses() const { return losses_; }
   /// Times that the covariance was rebuilt.
   [[nodiscard]] int rebuilds() const { return rebuilds_; }
@@ -119,6 +111,8 @@ class CoilInertialFilter {
   void UseGauges(const sensing::CoilFrame& frame);
   [[nodiscard]] double SigmaGravity_m_s2() const;
   void GuardCovariance(CoilUpdateReport& report);
+  /// √(tr P_pp) is within `lost_relative_sigma` of |p|.
+  [[nodiscard]] bool IsCertain() const;
   void WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report);
   void WatchPulses(const sensing::CoilFrame& frame, bool over, CoilUpdateReport& report);
   [[nodiscard]] bool IsPulseOver(const sensing::CoilFrame& frame);

@@ -47,13 +47,12 @@ struct CoilInertialState {
   Eigen::Vector3d background_earth_tesla = Eigen::Vector3d::Zero();  ///< at the source
   /// Of the background, symmetric and without trace as any field without currents is.
   Eigen::Matrix3d gradient_earth_tesla_m = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d emitter_mag_offset_tesla = Eigen::Vector3d::Zero();
 
   /// m + G p: the background at the sensor.
   [[nodiscard]] Eigen::Vector3d background_at_sensor_earth_tesla() const {
     return background_earth_tesla + gradient_earth_tesla_m * p_earth_m;
   }
-  Eigen::Vector3d emitter_mag_offset_tesla = Eigen::Vector3d::Zero();
-
   [[nodiscard]] Eigen::Vector3d p_emitter_sensor_m() const {
     return q_earth_emitter.conjugate() * p_earth_m;
   }

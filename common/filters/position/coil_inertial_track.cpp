@@ -225,6 +225,11 @@ void CoilInertialFilter::WatchPulses(const sensing::CoilFrame& frame, bool over,
       *std::max_element(silent_of_coil_.begin(), silent_of_coil_.end()) >= kSilentPulses;
 }
 
+bool CoilInertialFilter::IsCertain() const {
+  const double sigma_m = std::sqrt(P_.topLeftCorner<3, 3>().trace());
+  return sigma_m <= config_.lost_relative_sigma * state_.p_earth_m.norm();
+}
+
 void CoilInertialFilter::WatchTrack(const sensing::CoilFrame& frame, CoilUpdateReport& report) {
   const bool over = IsPulseOver(frame);
   WatchPulses(frame, over, report);
@@ -237,7 +242,7 @@ void CoilInertialFilter::WatchTrack(const sensing::CoilFrame& frame, CoilUpdateR
     ++pulses_seen_;
     const double first_nis =
         pulse_firsts_[static_cast<std::size_t>(pulses_seen_ - 1) % pulse_firsts_.size()];
-    if (first_nis < kAgreesBelow && is_certain()) {
+    if (first_nis < kAgreesBelow && IsCertain()) {
       agreed_emitter_m_ = state_.p_emitter_sensor_m();
       agreed_at_ = frame.measured_at;
     }
@@ -262,11 +267,8 @@ void CoilInertialFilter::WatchTrack(const sensing::CoilFrame& frame, CoilUpdateR
     pulse_nis_ += std::min(report.nis, kMost);
     ++pulse_samples_;
   }
-  const double range_m = state_.p_earth_m.norm();
-  const double sigma_m = std::sqrt(P_.topLeftCorner<3, 3>().trace());
   const bool settled = pulses_seen_ >= 3;  // a new track is uncertain
-  if ((settled && !(sigma_m <= config_.lost_relative_sigma * range_m)) ||
-      range_m > config_.lost_range_m) {
+  if ((settled && !IsCertain()) || state_.p_earth_m.norm() > config_.lost_range_m) {
     Lose(report);
   }
 }

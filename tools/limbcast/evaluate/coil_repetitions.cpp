@@ -11,7 +11,6 @@
 namespace limbcast::tool {
 namespace {
 
-constexpr std::array kNoises = {CoilNoise::kThesis, CoilNoise::kModern};
 constexpr std::array kValues = {&CoilFigure::position_m, &CoilFigure::distance_m,
                                 &CoilFigure::orientation_rad};
 
@@ -68,36 +67,23 @@ std::vector<CoilResult> RepeatCoilExperiments(
     const std::string& only, std::uint64_t seed, int repetitions,
     const std::function<void(std::size_t done, std::size_t all)>& on_done) {
   Expects(repetitions >= 1, "at least one repetition");
-  struct Trial {
-    CoilNoise noise;
-    std::size_t experiment;
-    int repetition;
-  };
-  const std::vector<CoilExperiment> known = MakeCoilExperiments(seed);
-  std::vector<Trial> trials;
-  for (const CoilNoise noise : kNoises) {
-    for (std::size_t experiment = 0; experiment < known.size(); ++experiment) {
-      for (int r = 0; known[experiment].name.find(only) != std::string::npos && r < repetitions;
-           ++r) {
-        trials.push_back({noise, experiment, r});
-      }
-    }
-  }
-  std::vector<CoilResult> all(trials.size());
+  const std::vector<CoilCase> cases = CoilCasesOf(MakeCoilExperiments(seed), only);
+  const auto each = static_cast<std::size_t>(repetitions);
+  std::vector<CoilResult> all(each * cases.size());
   std::mutex mutex;
   std::size_t done = 0;
-  ForEachIndex(trials.size(), [&](std::size_t i) {
-    const std::uint64_t own_seed = RepetitionSeed(seed, trials[i].repetition);
+  ForEachIndex(all.size(), [&](std::size_t i) {
+    const CoilCase& wanted = cases[i / each];
+    const std::uint64_t own_seed = RepetitionSeed(seed, static_cast<int>(i % each));
     const auto experiments = MakeCoilExperiments(own_seed);
-    all[i] = EvaluateCoil(experiments[trials[i].experiment], trials[i].noise, own_seed);
+    all[i] = EvaluateCoil(experiments[wanted.experiment], wanted.noise, own_seed);
     const std::scoped_lock lock(mutex);
     ++done;
     if (on_done) {
-      on_done(done, trials.size());
+      on_done(done, all.size());
     }
   });
   std::vector<CoilResult> means;
-  const auto each = static_cast<std::size_t>(repetitions);
   for (std::size_t first = 0; first < all.size(); first += each) {
     means.push_back(MeanOf(std::span(all).subspan(first, each)));
   }

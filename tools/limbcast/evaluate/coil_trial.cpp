@@ -112,6 +112,19 @@ CoilFigure Loose(const CoilTrial& trial, CoilTracking& tracking) {
 
 }  // namespace
 
+std::vector<CoilCase> CoilCasesOf(const std::vector<CoilExperiment>& experiments,
+                                  const std::string& only) {
+  std::vector<CoilCase> cases;
+  for (const CoilNoise noise : kCoilNoises) {
+    for (std::size_t i = 0; i < experiments.size(); ++i) {
+      if (experiments[i].name.find(only) != std::string::npos) {
+        cases.push_back({noise, i});
+      }
+    }
+  }
+  return cases;
+}
+
 double SigmaOf_tesla(CoilNoise noise) { return noise == CoilNoise::kThesis ? 50e-9 : 15e-9; }
 
 simulation::CoilPulseConfig PulsesOf(CoilNoise noise) {

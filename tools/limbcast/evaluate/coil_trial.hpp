@@ -29,6 +29,17 @@ enum class CoilNoise : std::uint8_t {
   kModern,  ///< 15 nT, bipolar 17 + 17 ms, 3 in 600 ms
 };
 
+inline constexpr std::array kCoilNoises = {CoilNoise::kThesis, CoilNoise::kModern};
+
+/// An experiment, as an index, at one noise.
+struct CoilCase {
+  CoilNoise noise = CoilNoise::kThesis;
+  std::size_t experiment = 0;
+};
+/// The experiments whose name has `only` in it, at each noise.
+[[nodiscard]] std::vector<CoilCase> CoilCasesOf(const std::vector<CoilExperiment>& experiments,
+                                                const std::string& only);
+
 /// How a filter kept to its track over the scored time.
 struct CoilTracking {
   double tracked = 0.0;  ///< part of it in which the filter was valid
